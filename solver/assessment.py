@@ -1,0 +1,134 @@
+"""The answer to one landing: verdict, margins, hot spots, gear loads and what they rest on."""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from solver.arrays import Array, IntArray
+from solver.landing.contact import Contact
+from solver.landing.history import LandingHistory
+
+
+class Verdict(StrEnum):
+    """What to do with the aircraft, mildest first; UNDETERMINED is treated as INSPECT."""
+
+    NORMAL = "NORMAL"
+    FIRM = "FIRM"
+    INSPECT = "INSPECT"
+    HARD = "HARD"
+    UNDETERMINED = "UNDETERMINED"
+
+
+ADVISORY = (
+    "Advisory only: approved maintenance data for the aircraft type remain the authority "
+    "for return to service."
+)
+
+
+@dataclass(frozen=True, slots=True)
+class TouchdownRecord:
+    """A landing as the solver takes it: loading and contacts, SI units.
+
+    ``None`` for a mass or fuel figure means the record does not say; the assessment then uses the
+    documented default of the aircraft definition and says so in its notes.
+    """
+
+    aircraft: str  #: name of the aircraft definition
+    contacts: tuple[Contact, ...]
+    mass: float | None = None  #: gross mass [kg]
+    centre_of_gravity: float | None = None  #: structural x station [m]
+    fuel: dict[str, float] = field(default_factory=dict)  #: tank name to fuel mass [kg]
+    payload: dict[str, float] = field(default_factory=dict)  #: bay name to mass [kg]
+    missing: tuple[str, ...] = ()  #: names of what the record lacks for a verdict
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """One line of justification, with the code a machine can act on."""
+
+    code: str
+    text: str
+    verdict: Verdict  #: the least severe verdict this reason alone would give
+
+
+@dataclass(frozen=True, slots=True)
+class HotSpot:
+    """The worst element of one zone of one component."""
+
+    rank: int
+    component: str
+    zone: str
+    side: str  #: "port", "starboard" or "centre"
+    element: int  #: identifier in the bulk data
+    element_kind: str  #: "CQUAD4", "CTRIA3" or "CBAR"
+    position: tuple[float, float, float]  #: centroid, structural axes [m]
+    peak_stress: float  #: von Mises [Pa]
+    allowable: float  #: limit allowable [Pa]
+    utilisation: float  #: peak / allowable
+    margin: float  #: allowable / peak - 1
+    time: float  #: of the peak, from that contact [s]
+    contact: int  #: index of the contact that drove it
+    ata_chapter: str
+    inspection: str  #: what to look for, from the aircraft definition
+
+
+@dataclass(frozen=True, slots=True)
+class GearLoad:
+    """Peaks of one gear in one contact against its design limits."""
+
+    gear: str
+    contact: int
+    vertical_force: float  #: [N]
+    vertical_time: float  #: [s]
+    drag_force: float  #: largest aft force [N]
+    spring_back_force: float  #: largest forward force [N]
+    side_force: float  #: largest magnitude [N]
+    stroke: float  #: [m]
+    tyre_deflection: float  #: [m]
+    stroke_utilisation: float  #: stroke / full stroke
+    utilisation: float  #: worst of vertical, drag and side against their limits
+    bounces: int  #: stays on the ground beyond the first
+
+
+@dataclass(frozen=True, slots=True)
+class PeakField:
+    """Every element's peak over the whole landing, in the solver's element order."""
+
+    element_identifiers: IntArray  #: (ne,)
+    stress: Array  #: (ne,) von Mises [Pa]
+    utilisation: Array  #: (ne,)
+    time: Array  #: (ne,) [s]
+    contact: IntArray  #: (ne,)
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """Wall-clock seconds of each step."""
+
+    simulation: float
+    reduced_solution: float
+    peak_search: float
+    total: float
+
+
+@dataclass(frozen=True, slots=True)
+class Assessment:
+    """All that is stored about a landing."""
+
+    verdict: Verdict
+    reasons: tuple[Reason, ...]
+    probability_limit_exceeded: float | None  #: filled once the record's uncertainty is propagated
+    driving_contact: int
+    worst_utilisation: float
+    worst_margin: float
+    hot_spots: tuple[HotSpot, ...]
+    gear_loads: tuple[GearLoad, ...]
+    peak_normal_load_factor: float  #: [g]
+    energy_error: float
+    equilibrium_residual: float  #: of the structural loads, relative to them
+    notes: tuple[str, ...]  #: defaults used, what was not assessed
+    model_hash: str
+    program_version: str
+    timing: Timing
+    peak_field: PeakField | None = None
+    histories: tuple[LandingHistory, ...] = ()  #: one for each contact
+    advisory: str = ADVISORY

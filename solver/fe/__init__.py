@@ -1,0 +1,1 @@
+"""Finite elements of the airframe: shells, beams, assembly, inertia and stress recovery."""
