@@ -13,7 +13,7 @@ class RecordError(SolverError):
     """A touchdown record asks for something outside the model; names field, value and range."""
 
 
-class SimulationDiverged(SolverError):
+class SimulationDivergedError(SolverError):
     """The landing simulation left the finite numbers or its energy account does not close."""
 
 

@@ -26,7 +26,7 @@ def body_structural(vectors: Array) -> Array:
 
 
 def skew(vector: Array) -> Array:
-    """Matrix of the cross product, ``skew(a) @ b == cross(a, b)``; shape (..., 3) to (..., 3, 3)."""
+    """Matrix of the cross product, ``skew(a) @ b == cross(a, b)``, from (..., 3) arrays."""
     x, y, z = vector[..., 0], vector[..., 1], vector[..., 2]
     zero = np.zeros_like(x)
     rows = [zero, -z, y, z, zero, -x, -y, x, zero]
@@ -60,7 +60,7 @@ def rotation_matrix(quaternion: Array) -> Array:
 
 
 def euler_from_quaternion(quaternion: Array) -> tuple[Array, Array, Array]:
-    """Roll, pitch and yaw [rad] of attitudes of shape (..., 4), the inverse of the sequence above."""
+    """Roll, pitch and yaw [rad] of attitudes (..., 4), inverting the sequence above."""
     w, x, y, z = (quaternion[..., k] for k in range(4))
     roll = np.arctan2(2 * (y * z + w * x), 1 - 2 * (x * x + y * y))
     pitch = np.arcsin(np.clip(2 * (w * y - x * z), -1.0, 1.0))

@@ -10,5 +10,5 @@ class Progress(Protocol):
         """Report that ``share`` of ``step`` is done."""
 
 
-def silent(step: str, share: float) -> None:  # noqa: ARG001
+def silent(step: str, share: float) -> None:
     """Report to nobody."""

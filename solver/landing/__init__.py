@@ -1,0 +1,1 @@
+"""The landing: rigid airframe on moving gears, from contact until it rolls."""

@@ -1,0 +1,1 @@
+"""The verdict: allowables, margins, hot spots, reasons."""
