@@ -1,1 +1,1 @@
-"""The aircraft: definition file, bulk data, mass states, air loads, and the example business jet."""
+"""The aircraft: definition file, bulk data, mass states, air loads, the example jet."""
