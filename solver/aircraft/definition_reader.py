@@ -1,0 +1,220 @@
+"""Reading ``definition.toml`` into the values of `solver.aircraft.definition`."""
+
+import math
+import tomllib
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import numpy as np
+from pydantic import ValidationError
+
+from solver.aircraft import definition as values
+from solver.aircraft import definition_file as file
+from solver.assessment import Verdict
+from solver.errors import ModelError
+
+
+def load_definition(folder: Path) -> values.AircraftDefinition:
+    """Read and check the definition in an aircraft's folder.
+
+    Raises
+    ------
+    ModelError
+        The file is missing or not TOML, a key is unknown, missing or outside its range (each is
+        named with its value and range), or names that must differ are repeated.
+    """
+    path = folder / values.DEFINITION_FILE
+    try:
+        document = tomllib.loads(path.read_bytes().decode())
+    except OSError as error:
+        raise ModelError(f"{path}: cannot be read: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ModelError(f"{path}: not valid TOML: {error}") from error
+    try:
+        checked = file.DefinitionFile.model_validate(document)
+    except ValidationError as error:
+        raise ModelError(f"{path}: " + "; ".join(_problems(error))) from error
+    try:
+        return _definition(checked)
+    except ModelError as error:
+        raise ModelError(f"{path}: {error}") from error
+
+
+def _problems(error: ValidationError) -> list[str]:
+    """One line for each finding: the key, what is allowed and what stands there."""
+    lines = []
+    for finding in error.errors(include_url=False):
+        key = ""
+        for part in finding["loc"]:
+            key += f"[{part}]" if isinstance(part, int) else f".{part}"
+        value = "" if isinstance(finding["input"], dict) else f", got {finding['input']!r}"
+        lines.append(f"{key.lstrip('.') or 'file'}: {finding['msg']}{value}")
+    return lines
+
+
+def _definition(checked: file.DefinitionFile) -> values.AircraftDefinition:
+    _refuse_repeated("gears.name", (gear.name for gear in checked.gears))
+    _refuse_repeated("gears.pins.node", (pin.node for gear in checked.gears for pin in gear.pins))
+    for gear in checked.gears:
+        _refuse_repeated(f"{gear.name}: pins.name", (pin.name for pin in gear.pins))
+    _refuse_repeated(
+        "tanks and bays: name", (group.name for group in (*checked.tanks, *checked.bays))
+    )
+    _refuse_repeated("materials.mat1", (material.mat1 for material in checked.materials))
+    _refuse_repeated("zones.name", (zone.name for zone in checked.zones))
+    masses, reference, aero = checked.masses, checked.reference, checked.aerodynamics
+    return values.AircraftDefinition(
+        name=checked.name,
+        title=checked.title,
+        description=checked.description,
+        disclaimer=checked.disclaimer,
+        bulk_data=checked.bulk_data,
+        masses=values.Masses(
+            operating_empty=masses.operating_empty_kg,
+            maximum_zero_fuel=masses.maximum_zero_fuel_kg,
+            maximum_landing=masses.maximum_landing_kg,
+            maximum_takeoff=masses.maximum_takeoff_kg,
+        ),
+        reference=values.Reference(
+            wing_area=reference.wing_area_m2,
+            wing_span=reference.wing_span_m,
+            mean_chord=reference.mean_chord_m,
+            mean_chord_leading_edge=reference.mean_chord_leading_edge_station_m,
+            forward_centre_of_gravity=reference.forward_centre_of_gravity_station_m,
+            aft_centre_of_gravity=reference.aft_centre_of_gravity_station_m,
+        ),
+        aerodynamics=values.AerodynamicDerivatives(
+            air_density=aero.air_density_kg_m3,
+            drag_coefficient=aero.drag_coefficient,
+            pitch_damping=aero.pitch_damping_per_rad,
+            roll_damping=aero.roll_damping_per_rad,
+            yaw_damping=aero.yaw_damping_per_rad,
+        ),
+        modal_damping_ratio=checked.structure.modal_damping_ratio,
+        verdict=values.VerdictThresholds(
+            firm_utilisation=checked.verdict.firm_utilisation,
+            inspect_utilisation=checked.verdict.inspect_utilisation,
+            overweight_factor=checked.verdict.overweight_factor,
+            roll_limit=math.radians(checked.verdict.roll_limit_deg),
+            nose_first=Verdict(checked.verdict.nose_first),
+        ),
+        gears=tuple(_gear(gear, checked) for gear in checked.gears),
+        tanks=tuple(map(_mass_group, checked.tanks)),
+        bays=tuple(map(_mass_group, checked.bays)),
+        air_loads=values.AirLoadLayout(
+            wing=_surface(checked.air_loads.wing),
+            tail=_surface(checked.air_loads.tail),
+            fin=_surface(checked.air_loads.fin),
+            fuselage=_skin(checked.air_loads.fuselage),
+            fuselage_drag_share=checked.air_loads.fuselage.drag_share,
+        ),
+        materials=tuple(
+            values.MaterialAllowable(material.name, material.mat1, material.limit_allowable_pa)
+            for material in checked.materials
+        ),
+        zones=tuple(_zone(zone) for zone in checked.zones),
+    )
+
+
+def _refuse_repeated(field: str, names: Iterable[object]) -> None:
+    repeated = [name for name, count in Counter(names).items() if count > 1]
+    if repeated:
+        raise ModelError(f"{field}: {repeated[0]!r} is used more than once")
+
+
+def _identifiers(entries: Sequence[int | list[int]]) -> values.IdentifierSet:
+    ranges = []
+    for entry in entries:
+        first, last = (entry, entry) if isinstance(entry, int) else (entry[0], entry[1])
+        if first > last:
+            raise ModelError(f"identifier range [{first}, {last}] runs backwards")
+        ranges.append((first, last))
+    return values.IdentifierSet(tuple(ranges))
+
+
+def _gear(gear: file.GearSection, checked: file.DefinitionFile) -> values.GearDefinition:
+    if gear.type not in checked.gear_types:
+        known = ", ".join(sorted(checked.gear_types))
+        raise ModelError(
+            f"gears: {gear.name}: type {gear.type!r} is not among gear_types ({known})"
+        )
+    kind = checked.gear_types[gear.type]
+    length = float(np.linalg.norm(gear.axis))
+    if abs(length - 1.0) > 1e-3:
+        raise ModelError(f"gears: {gear.name}: axis must have unit length, has {length:.4g}")
+    strut, tyre = kind.strut, kind.tyre
+    if strut.pneumatic_area_m2 * strut.stroke_m >= strut.gas_volume_m3:
+        raise ModelError(
+            f"gear_types.{gear.type}.strut: gas_volume_m3 = {strut.gas_volume_m3} is used "
+            f"up before stroke_m = {strut.stroke_m}; it must exceed pneumatic_area_m2 * stroke_m = "
+            f"{strut.pneumatic_area_m2 * strut.stroke_m:.6g}"
+        )
+    if tyre.friction_minimum > tyre.friction_maximum:
+        raise ModelError(
+            f"gear_types.{gear.type}.tyre: friction_minimum = {tyre.friction_minimum} exceeds "
+            f"friction_maximum = {tyre.friction_maximum}"
+        )
+    return values.GearDefinition(
+        name=gear.name,
+        position=gear.position,
+        pivot=np.array(gear.pivot_m, dtype=float),
+        axis=np.array(gear.axis, dtype=float) / length,
+        pins=tuple(
+            values.PinDefinition(
+                name=pin.name,
+                node=pin.node,
+                stiffness=np.array(
+                    pin.translational_stiffness_n_m + pin.rotational_stiffness_n_m_rad, dtype=float
+                ),
+            )
+            for pin in gear.pins
+        ),
+        limits=values.GearLimits(
+            vertical=kind.limits.vertical_n, drag=kind.limits.drag_n, side=kind.limits.side_n
+        ),
+        mechanics=kind,
+    )
+
+
+def _mass_group(group: file.MassGroupSection) -> values.MassGroup:
+    return values.MassGroup(
+        name=group.name,
+        capacity=group.capacity_kg,
+        point_masses=_identifiers(group.conm2),
+        default_fill=group.default_fill,
+    )
+
+
+def _skin(section: file.SurfaceSection | file.FuselageSection) -> values.LoadedSkin:
+    return values.LoadedSkin(
+        properties=None if section.properties is None else _identifiers(section.properties),
+        nodes=None if section.nodes is None else _identifiers(section.nodes),
+    )
+
+
+def _surface(section: file.SurfaceSection) -> values.LiftingSurface:
+    return values.LiftingSurface(
+        skin=_skin(section),
+        law=section.law,
+        centre_of_pressure=section.centre_of_pressure,
+        planform=values.Planform(
+            span_position=np.array([chord.span_position_m for chord in section.planform]),
+            leading_edge=np.array([chord.leading_edge_station_m for chord in section.planform]),
+            chord=np.array([chord.chord_m for chord in section.planform]),
+        ),
+    )
+
+
+def _zone(zone: file.ZoneSection) -> values.Zone:
+    return values.Zone(
+        name=zone.name,
+        component=zone.component,
+        side=zone.side,
+        ata_chapter=zone.ata_chapter,
+        properties=_identifiers(zone.properties),
+        look_for=zone.look_for,
+        access=zone.access,
+        shell_limit_allowable=zone.shell_limit_allowable_pa,
+        beam_limit_allowable=zone.beam_limit_allowable_pa,
+    )
