@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.aircraft.definition_file import GearTypeSection
 from solver.arrays import Array, BoolArray
 from solver.assessment import Verdict
+from solver.gear.parameters import Gear, Pin, SpringBack, Strut, Tyre
 
 #: Name of the definition in an aircraft's folder.
 DEFINITION_FILE = "definition.toml"
@@ -92,15 +92,34 @@ class PinDefinition:
 
 @dataclass(frozen=True, slots=True)
 class GearDefinition:
-    """One gear: where it sits, how it is held, what it may carry, and its mechanics."""
+    """One gear: its mechanics, where it sits, how it is held and what it may carry."""
 
     name: str
     position: str  #: "nose" or "main"
+    strut: Strut
+    tyre: Tyre
+    spring_back: SpringBack
+    unsprung_mass: float  #: [kg]
     pivot: Array  #: (3,) hinge of the fore-aft swing, structural axes [m]
     axis: Array  #: (3,) unit vector from the pivot to the axle, structural axes
     pins: tuple[PinDefinition, ...]
     limits: GearLimits
-    mechanics: GearTypeSection
+
+    def gear(self, pin_positions: Array) -> Gear:
+        """Gear on pins at ``pin_positions`` (n_pins, 3), structural axes [m]."""
+        return Gear(
+            name=self.name,
+            strut=self.strut,
+            tyre=self.tyre,
+            spring_back=self.spring_back,
+            unsprung_mass=self.unsprung_mass,
+            pivot=self.pivot,
+            axis=self.axis,
+            pins=tuple(
+                Pin(name=pin.name, position=position, stiffness=pin.stiffness)
+                for pin, position in zip(self.pins, pin_positions, strict=True)
+            ),
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -83,17 +83,27 @@ class AerodynamicsSection(Section):
     source: Text = "not stated"
 
 
+class MeteringSection(Section):
+    """One point of the metering pin: orifice area over that of the compression damping."""
+
+    stroke_m: Annotated[float, Field(ge=0, le=2)]
+    area_ratio: Annotated[float, Field(gt=0, le=100)]
+
+
 class StrutSection(Section):
     """[gear_types.X.strut]: oleo-pneumatic shock strut."""
 
     length_m: Length  #: pivot of the fore-aft swing to the axle at full extension
     stroke_m: Annotated[float, Field(gt=0, le=2)]
     pneumatic_area_m2: Annotated[float, Field(ge=1e-5, le=1)]
-    gas_pressure_pa: Annotated[float, Field(ge=1e4, le=1e8)]  #: at full extension, absolute
+    gas_pressure_pa: Annotated[float, Field(ge=1e4, le=1e8)]  #: at full extension, gauge
     gas_volume_m3: Annotated[float, Field(ge=1e-6, le=1)]  #: at full extension
     polytropic_exponent: Annotated[float, Field(ge=1, le=1.7)]
     compression_damping_n_s2_m2: Annotated[float, Field(gt=0, le=1e8)]  #: rho A_h^3/(2 (C_d A_n)^2)
     rebound_damping_n_s2_m2: Annotated[float, Field(gt=0, le=1e8)]
+    metering: Annotated[list[MeteringSection], Field(max_length=32)] = []
+    stop_stiffness_n_m: Annotated[float, Field(ge=1e4, le=1e10)] = 2.0e7
+    seal_friction_n: Annotated[float, Field(ge=0, le=1e6)] = 0.0
 
 
 class TyreSection(Section):
@@ -106,6 +116,7 @@ class TyreSection(Section):
     stiffness_n_m_r: Annotated[float, Field(ge=1e3, le=1e9)]  #: m of F = m z^r
     exponent: Annotated[float, Field(ge=1, le=3)]  #: r of F = m z^r
     bottoming_deflection_m: Annotated[float, Field(gt=0, le=1)]
+    bottoming_stiffness_n_m: Annotated[float, Field(gt=0, le=1e10)] | None = None
     wheel_inertia_kg_m2: Annotated[float, Field(gt=0, le=1000)]  #: of one wheel about its axle
     slip_stiffness_n: Force
     cornering_stiffness_n_rad: Force
@@ -115,10 +126,34 @@ class TyreSection(Section):
 
 
 class SpringBackSection(Section):
-    """[gear_types.X.spring_back]: fore-aft bending of the lower strut."""
+    """[gear_types.X.spring_back]: fore-aft bending of the lower strut, stated in one of three ways.
 
-    frequency_hz: Annotated[float, Field(ge=2, le=200)]
+    By the fore-aft frequency of the unsprung mass at ``frequency_stroke_m``, by a rotational
+    stiffness, or by cylinder and piston tubes in series with their attachment.
+    """
+
     damping_ratio: Ratio
+    frequency_hz: Annotated[float, Field(ge=2, le=200)] | None = None
+    frequency_stroke_m: Annotated[float, Field(ge=0, le=2)] = 0.0
+    stiffness_n_m_rad: Annotated[float, Field(ge=1e3, le=1e10)] | None = None
+    cylinder_rigidity_n_m2: Annotated[float, Field(ge=1e2, le=1e10)] | None = None
+    cylinder_length_m: Length | None = None
+    piston_rigidity_n_m2: Annotated[float, Field(ge=1e2, le=1e10)] | None = None
+    attachment_stiffness_n_m_rad: Annotated[float, Field(ge=1e3, le=1e12)] | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> "SpringBackSection":
+        tubes = [self.cylinder_rigidity_n_m2, self.cylinder_length_m, self.piston_rigidity_n_m2]
+        if any(value is not None for value in tubes) and any(value is None for value in tubes):
+            raise ValueError(
+                "two tubes need cylinder_rigidity_n_m2, cylinder_length_m and piston_rigidity_n_m2"
+            )
+        ways = [self.frequency_hz, self.stiffness_n_m_rad, self.cylinder_rigidity_n_m2]
+        if sum(way is not None for way in ways) != 1:
+            raise ValueError(
+                "needs exactly one of frequency_hz, stiffness_n_m_rad and the two-tube keys"
+            )
+        return self
 
 
 class LimitsSection(Section):

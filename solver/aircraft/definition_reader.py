@@ -13,6 +13,7 @@ from solver.aircraft import definition as values
 from solver.aircraft import definition_file as file
 from solver.assessment import Verdict
 from solver.errors import ModelError
+from solver.gear.parameters import SpringBack, Strut, Tyre
 
 
 def load_definition(folder: Path) -> values.AircraftDefinition:
@@ -143,21 +144,18 @@ def _gear(gear: file.GearSection, checked: file.DefinitionFile) -> values.GearDe
     length = float(np.linalg.norm(gear.axis))
     if abs(length - 1.0) > 1e-3:
         raise ModelError(f"gears: {gear.name}: axis must have unit length, has {length:.4g}")
-    strut, tyre = kind.strut, kind.tyre
-    if strut.pneumatic_area_m2 * strut.stroke_m >= strut.gas_volume_m3:
-        raise ModelError(
-            f"gear_types.{gear.type}.strut: gas_volume_m3 = {strut.gas_volume_m3} is used "
-            f"up before stroke_m = {strut.stroke_m}; it must exceed pneumatic_area_m2 * stroke_m = "
-            f"{strut.pneumatic_area_m2 * strut.stroke_m:.6g}"
-        )
-    if tyre.friction_minimum > tyre.friction_maximum:
-        raise ModelError(
-            f"gear_types.{gear.type}.tyre: friction_minimum = {tyre.friction_minimum} exceeds "
-            f"friction_maximum = {tyre.friction_maximum}"
-        )
+    try:
+        strut, tyre = _strut(kind.strut), _tyre(kind.tyre)
+        spring_back = _spring_back(kind)
+    except ModelError as error:
+        raise ModelError(f"gear_types.{gear.type}: {error}") from error
     return values.GearDefinition(
         name=gear.name,
         position=gear.position,
+        strut=strut,
+        tyre=tyre,
+        spring_back=spring_back,
+        unsprung_mass=kind.unsprung_mass_kg,
         pivot=np.array(gear.pivot_m, dtype=float),
         axis=np.array(gear.axis, dtype=float) / length,
         pins=tuple(
@@ -173,7 +171,61 @@ def _gear(gear: file.GearSection, checked: file.DefinitionFile) -> values.GearDe
         limits=values.GearLimits(
             vertical=kind.limits.vertical_n, drag=kind.limits.drag_n, side=kind.limits.side_n
         ),
-        mechanics=kind,
+    )
+
+
+def _strut(section: file.StrutSection) -> Strut:
+    return Strut(
+        pneumatic_area=section.pneumatic_area_m2,
+        initial_gas_pressure=section.gas_pressure_pa,
+        initial_gas_volume=section.gas_volume_m3,
+        polytropic_exponent=section.polytropic_exponent,
+        compression_coefficient=section.compression_damping_n_s2_m2,
+        rebound_coefficient=section.rebound_damping_n_s2_m2,
+        full_stroke=section.stroke_m,
+        extended_length=section.length_m,
+        metering=tuple((point.stroke_m, point.area_ratio) for point in section.metering),
+        stop_stiffness=section.stop_stiffness_n_m,
+        seal_friction=section.seal_friction_n,
+    )
+
+
+def _tyre(section: file.TyreSection) -> Tyre:
+    return Tyre(
+        free_radius=section.free_radius_m,
+        vertical_coefficient=section.stiffness_n_m_r,
+        vertical_exponent=section.exponent,
+        longitudinal_stiffness=section.slip_stiffness_n,
+        cornering_stiffness=section.cornering_stiffness_n_rad,
+        maximum_friction=section.friction_maximum,
+        minimum_friction=section.friction_minimum,
+        width=section.width_m,
+        wheel_inertia=section.wheel_inertia_kg_m2,
+        count=section.count,
+        bottoming_deflection=section.bottoming_deflection_m,
+        bottoming_stiffness=section.bottoming_stiffness_n_m,
+        rolling_resistance=section.rolling_resistance_m,
+    )
+
+
+def _spring_back(kind: file.GearTypeSection) -> SpringBack:
+    section = kind.spring_back
+    if section.frequency_hz is not None:
+        return SpringBack.from_frequency(
+            frequency=section.frequency_hz,
+            unsprung_mass=kind.unsprung_mass_kg,
+            length=kind.strut.length_m - section.frequency_stroke_m,
+            damping_ratio=section.damping_ratio,
+        )
+    if section.stiffness_n_m_rad is not None:
+        return SpringBack(stiffness=section.stiffness_n_m_rad, damping_ratio=section.damping_ratio)
+    attachment = section.attachment_stiffness_n_m_rad
+    return SpringBack(
+        damping_ratio=section.damping_ratio,
+        cylinder_rigidity=section.cylinder_rigidity_n_m2 or 0.0,
+        piston_rigidity=section.piston_rigidity_n_m2 or 0.0,
+        cylinder_length=section.cylinder_length_m or 0.0,
+        attachment_stiffness=math.inf if attachment is None else attachment,
     )
 
 
