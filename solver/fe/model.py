@@ -53,6 +53,8 @@ class BeamProperty:
     shear_factor_1: float = 0.0  #: K1; 0 means no shear flexibility in the x-y plane
     shear_factor_2: float = 0.0  #: K2
     nonstructural_mass: float = 0.0  #: [kg/m]
+    shape: str = ""  #: PBARL cross-section type the figures come from; empty for PBAR
+    dimensions: tuple[float, ...] = ()  #: DIM1, DIM2, ... of that type [m]
 
 
 @dataclass(frozen=True, slots=True)
