@@ -1,0 +1,171 @@
+"""The reduced basis: elastic modes and residual (attachment) vectors, ranked by strain energy.
+
+Modes carry the slow global motion.  What they miss is the local stress where loads enter, at the
+gear fittings above all, so every load shape also gives its static response by inertia relief and
+the next terms of its expansion in frequency (block Krylov vectors).  All candidates are weighed by
+strain energy, relative to what their own load stores, and only what the others do not already
+represent is kept.
+
+Sources: Craig, "Coupling of substructures for dynamic analyses", 2000 (residual-attachment modes);
+Bai, "Krylov subspace techniques for reduced-order modeling", 2002 (moment matching).
+"""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from solver.arrays import Array
+from solver.errors import ModelError
+from solver.fe.inertia import combine
+from solver.inertia_relief.factor import factorise
+from solver.inertia_relief.free_body import FreeBody, free_body
+from solver.inertia_relief.static import inertia_relief
+from solver.progress import Progress, silent
+
+if TYPE_CHECKING:
+    from solver.fe.inertia import Inertia
+    from solver.fe.structure import Structure
+
+#: Eigenvalues below this share of the first elastic one belong to rigid modes.
+_RIGID_SHARE = 1e-4
+#: A load whose balanced part is smaller than this share of it deforms nothing.
+_NO_LOAD = 1e-9
+#: The shift makes ``K - sigma M`` definite; far below the first elastic mode [Hz].
+_SHIFT_FREQUENCY = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class BasisSettings:
+    """What goes into a reduced basis; part of the key under which a model is cached."""
+
+    modes: int = 100  #: elastic modes of each mass state
+    fills: tuple[float, ...] = (0.0, 0.5, 1.0)  #: mass states, all groups filled alike
+    residual_order: int = 2  #: vectors of each load: 1 static response, 2 and more Krylov
+    cutoff_frequency: float = 100.0  #: where the terms of the expansion are compared [Hz]
+    mode_tolerance: float = 1e-2  #: share of a further mass state's mode that may be dropped
+    tolerance: float = 1e-3  #: share of a load's own response that may be dropped
+
+
+def mass_state(base: "Inertia", groups: "tuple[Inertia, ...]", fill: float) -> "Inertia":
+    """Inertia with every group filled to ``fill`` of its capacity."""
+    return combine([(1.0, base), *((fill, group) for group in groups)])
+
+
+def elastic_modes(body: FreeBody, count: int) -> tuple[Array, Array]:
+    """Lowest elastic modes of a free body by shift-invert Lanczos iteration.
+
+    Returns
+    -------
+    (k,) array, (n, k) array
+        Circular frequencies [rad/s] and M-orthonormal shapes; k is ``count``, or less on a
+        structure too small for it.
+
+    Raises
+    ------
+    ModelError
+        The structure has not exactly six rigid modes: it is a mechanism, or held.
+    """
+    size = body.stiffness.shape[0]
+    wanted = min(count + 6, max(7, size // 2))
+    shift = -((2 * np.pi * _SHIFT_FREQUENCY) ** 2)
+    factor = factorise(body.stiffness - shift * body.mass)
+    inverse = LinearOperator((size, size), matvec=factor.solve, dtype=np.float64)
+    start = np.random.default_rng(15).standard_normal(size)
+    values, shapes = eigsh(
+        body.stiffness, k=wanted, M=body.mass, sigma=shift, OPinv=inverse, v0=start
+    )
+    order = np.argsort(values)
+    values, shapes = values[order], shapes[:, order]
+    if np.any(np.abs(values[:6]) > _RIGID_SHARE * values[6]):
+        raise ModelError(f"the structure is held: its sixth eigenvalue is {values[5]:.3g} rad2/s2")
+    if values[6] < (2 * np.pi * 1e-2) ** 2:
+        raise ModelError(
+            f"the structure is a mechanism: seventh eigenvalue {values[6]:.3g} rad2/s2"
+        )
+    return np.sqrt(values[6:]), body.mean_axis(shapes[:, 6:])
+
+
+def extended(stiffness: Any, basis: Array, candidates: Array, tolerance: float) -> Array:
+    """Append to a K-orthonormal ``basis`` (n, m) what it lacks of ``candidates`` (n, p).
+
+    Of the candidates' remainders the principal directions in the strain-energy product are kept;
+    each candidate is then represented with an error of at most ``tolerance`` in that norm.
+    """
+    remainder = _without(stiffness, basis, _without(stiffness, basis, candidates))
+    for limit in (tolerance**2, 0.5):  # the second pass removes the rounding of the first
+        gram = remainder.T @ (stiffness @ remainder)
+        values, directions = np.linalg.eigh((gram + gram.T) / 2)
+        kept = values > limit
+        remainder = remainder @ (directions[:, kept] / np.sqrt(values[kept]))
+        remainder = _without(stiffness, basis, remainder)
+    return np.hstack([basis, remainder])
+
+
+def _without(stiffness: Any, basis: Array, vectors: Array) -> Array:
+    """Part of ``vectors`` that is K-orthogonal to the K-orthonormal ``basis``."""
+    rest: Array = vectors - basis @ (basis.T @ (stiffness @ vectors))
+    return rest
+
+
+def energy_norms(stiffness: Any, vectors: Array) -> Array:
+    """Square root of twice the strain energy of each vector (n, k)."""
+    return np.sqrt(np.maximum(np.einsum("ij,ij->j", vectors, stiffness @ vectors), 0.0))
+
+
+def build_basis(
+    structure: "Structure",
+    base: "Inertia",
+    groups: "tuple[Inertia, ...]",
+    applied: Array,
+    settings: BasisSettings,
+    progress: Progress = silent,
+) -> Array:
+    """K-orthonormal reduced basis (n, m), mean-axis with respect to the middle mass state.
+
+    The response to a load of circular frequency w is x1 + w^2 x2 + w^4 x3 + ..., with x1 its
+    inertia-relief solution and K x(j+1) = M x(j).  Modes come first; of every term only what the
+    basis lacks so far goes on to the next one.  Each term is taken at the cut-off frequency and
+    divided by the strain-energy norm of x1, so that the tolerance means a share of the stress.
+
+    Parameters
+    ----------
+    base, groups : Inertia
+        Of the empty structure, and of each full mass group.
+    applied : (n, k) array
+        Loads of unit pin and air components.
+    """
+    middle = free_body(structure, mass_state(base, groups, 0.5))
+    stiffness = structure.stiffness
+    basis = np.zeros((structure.n_free, 0))
+    for index, fill in enumerate(settings.fills):
+        progress("elastic modes", index / len(settings.fills))
+        body = free_body(structure, mass_state(base, groups, fill))
+        frequencies, shapes = elastic_modes(body, settings.modes)
+        shapes = middle.mean_axis(shapes / frequencies)
+        basis = extended(stiffness, basis, shapes, settings.mode_tolerance)
+    progress("elastic modes", 1.0)
+
+    origin = middle.centre_of_gravity
+    inertial = [part.rigid_load_shapes(origin) for part in (base, *groups)]
+    relief = inertia_relief(middle)
+    term = relief.displacement(_acting(middle, np.hstack([applied, *inertial])))
+    scale = energy_norms(stiffness, term)
+    for order in range(settings.residual_order):
+        progress("residual vectors", order / settings.residual_order)
+        if order > 0:
+            factor = (2 * np.pi * settings.cutoff_frequency) ** 2
+            term = relief.displacement(factor * (middle.mass @ term))
+        term = _without(stiffness, basis, term)
+        basis = extended(stiffness, basis, term / scale, settings.tolerance)
+    progress("residual vectors", 1.0)
+    return basis
+
+
+def _acting(body: FreeBody, loads: Array) -> Array:
+    """Pick the loads that deform the body: those whose balanced part is more than rounding."""
+    norms = np.linalg.norm(loads, axis=0)
+    balanced = np.linalg.norm(body.self_equilibrated(loads), axis=0)
+    acting: Array = loads[:, balanced > _NO_LOAD * np.where(norms > 0.0, norms, np.inf)]
+    return acting

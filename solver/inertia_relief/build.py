@@ -1,0 +1,115 @@
+"""Building a reduced model from an airframe, once, cached under the hash of what it rests on."""
+
+import hashlib
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from solver.arrays import Array
+from solver.inertia_relief.basis import BasisSettings, build_basis, mass_state
+from solver.inertia_relief.damping import RayleighDamping
+from solver.inertia_relief.loads import applied_shapes
+from solver.inertia_relief.projection import projected_inertia
+from solver.inertia_relief.reduced import FORMAT, ReducedModel, load_reduced_model
+from solver.inertia_relief.stress_rows import reduced_stress_rows
+from solver.progress import Progress, silent
+
+if TYPE_CHECKING:
+    from solver.aircraft.airframe import Airframe
+    from solver.fe.inertia import Inertia
+    from solver.fe.stress import StressRecovery
+    from solver.fe.structure import Structure
+
+
+def project(
+    structure: "Structure",
+    base: "Inertia",
+    groups: "tuple[Inertia, ...]",
+    applied: Array,
+    recovery: "StressRecovery",
+    basis: Array,
+    damping: RayleighDamping,
+    key: str = "",
+    progress: Progress = silent,
+) -> ReducedModel:
+    """Project inertia, loads and stress on a K-orthonormal ``basis`` (n, m) and the rigid modes."""
+    parts = (base, *groups)
+    origin = mass_state(base, groups, 0.5).rigid_body_properties().centre_of_gravity
+    full = np.hstack([structure.rigid_modes(origin), basis])
+    masses, operators, inertial = [], [], []
+    for index, part in enumerate(parts):
+        progress("projection", index / (len(parts) + 1))
+        mass, terms = projected_inertia(part, full)
+        masses.append(mass)
+        operators.append(terms.astype(np.float32))
+        inertial.append(full.T @ part.rigid_load_shapes(origin))
+    shell_stress, beam_stress = reduced_stress_rows(recovery, basis)
+    progress("projection", 1.0)
+    return ReducedModel(
+        key=key,
+        damping=damping,
+        origin=origin,
+        mass=np.stack(masses),
+        rate_operators=np.stack(operators),
+        applied=full.T @ applied,
+        inertia=np.stack(inertial),
+        shell_stress=shell_stress,
+        beam_stress=beam_stress,
+    )
+
+
+def model_key(content_hash: str, settings: BasisSettings, damping: RayleighDamping) -> str:
+    """Hash of the airframe's content and of everything that shapes its reduced model."""
+    values = [sorted(asdict(part).items()) for part in (settings, damping)]
+    return hashlib.sha256(f"{content_hash} {FORMAT} {values}".encode()).hexdigest()
+
+
+def reduced_model(
+    airframe: "Airframe",
+    cache: Path | None = None,
+    settings: BasisSettings = BasisSettings(),  # noqa: B008 - frozen
+    damping: RayleighDamping | None = None,
+    progress: Progress = silent,
+) -> ReducedModel:
+    """Reduced model of ``airframe`` from ``cache``, built and stored there on first use.
+
+    Parameters
+    ----------
+    cache : Path, optional
+        Folder of models, one folder for each key; without it the model is built in memory.
+    damping : RayleighDamping, optional
+        By default the ratio of the aircraft definition, see `airframe_damping`.
+    """
+    damping = airframe_damping(airframe) if damping is None else damping
+    key = model_key(airframe.content_hash, settings, damping)
+    folder = None if cache is None else cache / key[:16]
+    if folder is not None:
+        stored = load_reduced_model(folder, key)
+        if stored is not None:
+            return stored
+    structure = airframe.structure
+    groups = tuple(group.inertia for group in airframe.groups)
+    applied = applied_shapes(airframe)
+    basis = build_basis(structure, structure.inertia, groups, applied, settings, progress)
+    model = project(
+        structure,
+        structure.inertia,
+        groups,
+        applied,
+        airframe.recovery,
+        basis,
+        damping,
+        key,
+        progress,
+    )
+    if folder is None:
+        return model
+    model.save(folder)
+    return load_reduced_model(folder, key) or model
+
+
+def airframe_damping(airframe: "Airframe") -> RayleighDamping:
+    """Damping of the aircraft definition, held at the two frequencies of `RayleighDamping`."""
+    return RayleighDamping(ratio=airframe.definition.modal_damping_ratio)

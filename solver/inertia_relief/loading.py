@@ -1,0 +1,78 @@
+"""One loading of a reduced airframe: its modes, its rate operators, its share of the loads."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.arrays import Array
+from solver.errors import ModelError
+from solver.frames import skew
+from solver.inertia_relief.modal_recursion import StepCoefficients, step_coefficients
+from solver.inertia_relief.reduced import ReducedModel, Single
+
+
+@dataclass(frozen=True, slots=True)
+class ReducedLoading:
+    """A reduced model with the mass of one loading; m elastic coordinates."""
+
+    model: ReducedModel
+    circular_frequency: Array  #: (m,) descending [rad/s]
+    modes: Array  #: (m, m) orthogonal, columns are modes in the model's coordinates
+    modes_with_rigid: Array  #: (6 + m, m) the same, made mean-axis for this loading
+    rate_operators: Single  #: (12, 6 + m, 6 + m)
+    inertia: Array  #: (6 + m, 12)
+    centre_of_gravity: Array  #: (3,) [m]
+    mass: float  #: [kg]
+    gyration_radius: float  #: [m]
+    rigid_transfer: Array  #: (6, 6) resultants about the origin to those about the cg
+
+    def coefficients(self, time_step: float) -> StepCoefficients:
+        """Exact recursion of every mode over ``time_step`` [s], with the model's damping."""
+        frequency = self.circular_frequency
+        return step_coefficients(frequency, self.model.damping.modal_ratio(frequency), time_step)
+
+
+def assemble(model: ReducedModel, factors: Array) -> ReducedLoading:
+    """Assemble ``M(f) = M_0 + sum f_j M_j`` and find its elastic modes.
+
+    Parameters
+    ----------
+    factors : (g,) array
+        Fill of every mass group, 0 to 1.
+
+    Raises
+    ------
+    ModelError
+        Wrong number of factors, or a mass matrix that is not positive definite.
+    """
+    if np.shape(factors) != (model.group_count,):
+        raise ModelError(
+            f"{model.group_count} mass groups need as many fill factors, got {np.shape(factors)}"
+        )
+    weights = np.concatenate([[1.0], factors])
+    total = np.tensordot(weights, model.mass, axes=1)
+    rigid, coupling = total[:6, :6], total[:6, 6:]
+    follow = -np.linalg.solve(rigid, coupling)
+    elastic = total[6:, 6:] + coupling.T @ follow
+    # K is the identity: M phi = mu phi with mu = 1 / w^2, and orthogonal modes
+    squared_period, modes = np.linalg.eigh((elastic + elastic.T) / 2)
+    if not squared_period[0] > 0.0:
+        raise ModelError(f"reduced mass is not positive definite at factors {factors.tolist()}")
+    mass = float(rigid[0, 0])
+    lever = rigid[:3, 3:] / mass  # equals -skew(centre of gravity from the origin)
+    centre = np.array([lever[1, 2], lever[2, 0], lever[0, 1]])
+    transfer = np.eye(6)
+    transfer[3:, :3] = -skew(centre)
+    central = transfer @ rigid @ transfer.T
+    return ReducedLoading(
+        model=model,
+        circular_frequency=1.0 / np.sqrt(squared_period),
+        modes=modes,
+        modes_with_rigid=np.vstack([follow @ modes, modes]),
+        rate_operators=np.tensordot(weights.astype(np.float32), model.rate_operators, axes=1),
+        inertia=np.tensordot(weights, model.inertia, axes=1),
+        centre_of_gravity=model.origin + centre,
+        mass=mass,
+        gyration_radius=float(np.sqrt(np.trace(central[3:, 3:]) / (2 * mass))),
+        rigid_transfer=transfer,
+    )
