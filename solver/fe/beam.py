@@ -3,7 +3,7 @@
 Theory
 ------
 The stiffness is exact for a prismatic beam loaded at its ends, shear flexibility included
-(J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, section 5.6, eq 5.116): with
+(J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, section 5.6): with
 Phi = 12 E I / (G K A L^2) in each principal plane, Phi = 0 where the shear factor K is 0.
 
 The mass uses the displacement shapes of the same static solution (the Hermite cubics with their

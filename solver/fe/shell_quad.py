@@ -16,15 +16,19 @@ Beresford, E. L. Wilson, A non-conforming element for stress analysis, Int. J. N
 *Drilling.*  The rotation theta about the normal is an independent bilinear field, held to the
 in-plane rotation of the displacement field by 1/2 integral gamma (theta - (v,x - u,y)/2)^2 t dA
 (T. J. R. Hughes, F. Brezzi, On drilling degrees of freedom, Comp. Meth. Appl. Mech. Eng. 72,
-1989, 105-121, eq 2.4), gamma = G as they advise (section 5).  Deviation: the in-plane rotation
-includes the incompatible modes, so that in pure bending theta follows the true rotation and the
-coupling stores nothing: no locking, at any gamma.  It is integrated with 2 x 2 points, which
-leaves no drilling mode free.  The coupling is what lets twist pass as in-plane rotation round
-the corner of folded or curved shells (Raasch's hook).
+1989, 105-121), gamma = G as they advise.  Two deviations.  The in-plane
+rotation includes the incompatible modes, so that theta follows the true rotation in bending.
+And the full gamma acts on the element's mean alone (one point); the remaining patterns of theta
+get `PATTERN_SHARE` of it, with 2 x 2 points, so that none is free.  Measured on Raasch's hook,
+the hemisphere and the twisted beam: gamma = G at all four points locks the coarse hemisphere
+(0.14 of its deflection with 4 x 4 elements, 0.98 with one point), because corner rotations of
+neighbouring facets do not share a plane; a small gamma at all points frees the hemisphere but
+lets the hook and the twisted beam go limp (2.7 and 75 times too soft at 1e-6 G), because twist
+must pass as in-plane rotation round a fold.  The mean alone carries the twist.
 
 *Plate.*  Mindlin plate with the transverse shear sampled at the middles of the sides (E. N.
 Dvorkin, K. J. Bathe, A continuum mechanics based four-node shell element for general non-linear
-analysis, Eng. Comp. 1, 1984, 77-88, eqs 3-5 for the flat element), shear correction 5/6.
+analysis, Eng. Comp. 1, 1984, 77-88; here on the flat element), shear correction 5/6.
 
 Local axes: e3 normal to the diagonals, e1 along the bisector that runs from side 4-1 to side 2-3.
 """
@@ -40,6 +44,8 @@ from solver.frames import skew
 CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 GAUSS_POINTS = CORNERS / np.sqrt(3.0)
 SHEAR_CORRECTION = 5.0 / 6.0
+#: Stiffness of the drilling patterns with zero mean, as a share of the coupling of the mean.
+PATTERN_SHARE = 1e-3
 
 
 def shape_functions(xi: float, eta: float) -> tuple[Array, Array]:
@@ -117,6 +123,8 @@ def quad_stiffness(coordinates: Array, sections: ShellSections) -> Array:
     # Membrane unknowns: 24 nodal freedoms, then the four incompatible amplitudes.
     sheet = np.zeros((count, 28, 28))
     centre_inverse, centre_determinant = _jacobian(corners, 0.0, 0.0)
+    mean_spin = _mean_spin(centre_inverse)
+    sheet += _quadratic(mean_spin, (4.0 * drilling * centre_determinant)[:, None, None])
     tying = _shear_samples(corners)
     for xi, eta in GAUSS_POINTS:
         inverse, determinant = _jacobian(corners, xi, eta)
@@ -126,7 +134,7 @@ def quad_stiffness(coordinates: Array, sections: ShellSections) -> Array:
         modes = ratio * (centre_inverse @ np.array([[-2.0 * xi, 0.0], [0.0, -2.0 * eta]]))
         strain, spin = _membrane_operators(gradients, values, modes)
         sheet += _quadratic(strain, membrane * determinant[:, None, None])
-        sheet += _quadratic(spin, (drilling * determinant)[:, None, None])
+        sheet += _quadratic(spin, (PATTERN_SHARE * drilling * determinant)[:, None, None])
         plate += _quadratic(_curvature(gradients), bending * determinant[:, None, None])
         shear_strain = inverse @ _interpolated_shear(tying, xi, eta)
         plate += _quadratic(shear_strain, (shear * determinant)[:, None, None] * np.eye(2)[None])
@@ -209,6 +217,13 @@ def _membrane_operators(gradients: Array, values: Array, modes: Array) -> tuple[
         spin[:, 0, columns_v] = -0.5 * gradient[:, 0]
     spin[:, 0, nodal_theta] = values
     return strain, spin
+
+
+def _mean_spin(centre_inverse: Array) -> Array:
+    """Drilling against in-plane rotation at the centre (m, 1, 28); the modes are flat there."""
+    values, parent = shape_functions(0.0, 0.0)
+    flat = np.zeros((len(centre_inverse), 2, 2))
+    return _membrane_operators(centre_inverse @ parent, values, flat)[1]
 
 
 def _curvature(gradients: Array) -> Array:

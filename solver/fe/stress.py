@@ -9,7 +9,7 @@ from solver.arrays import Array, IntArray
 from solver.fe.beam import beam_geometry, beam_stresses
 from solver.fe.sections import ShellSections, beam_sections, shell_sections
 from solver.fe.shell_quad import quad_strains
-from solver.fe.shell_triangle import triangle_strains
+from solver.fe.shell_triangle import side_lumping, triangle_strains
 from solver.fe.structure import Structure
 
 SHELL_ROWS = 6
@@ -89,9 +89,10 @@ def build_stress_recovery(structure: Structure) -> StressRecovery:
     quads = _shell_faces(
         quad_strains(model.coordinates[model.quads.nodes]), shell_sections(model, model.quads)
     )
+    sections = shell_sections(model, model.triangles)
+    lumping = side_lumping(model.triangles.nodes, model.quads.nodes, model.node_count)
     triangles = _shell_faces(
-        triangle_strains(model.coordinates[model.triangles.nodes]),
-        shell_sections(model, model.triangles),
+        triangle_strains(model.coordinates[model.triangles.nodes], sections, lumping), sections
     )
     geometry = beam_geometry(model.coordinates, model.beams)
     beams = beam_stresses(geometry, beam_sections(model, model.beams))

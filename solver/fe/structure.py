@@ -15,7 +15,7 @@ from solver.fe.mass import structural_inertia
 from solver.fe.model import FiniteElementModel
 from solver.fe.sections import beam_sections, shell_sections
 from solver.fe.shell_quad import check_quads, quad_stiffness
-from solver.fe.shell_triangle import check_triangles, triangle_stiffness
+from solver.fe.shell_triangle import check_triangles, side_lumping, triangle_stiffness
 from solver.frames import skew
 from solver.progress import Progress, silent
 
@@ -84,11 +84,12 @@ def build_structure(model: FiniteElementModel, progress: Progress = silent) -> S
     transformation, free = constraint_transformation(model)
 
     progress("assembling the airframe", 0.2)
+    lumping = side_lumping(model.triangles.nodes, model.quads.nodes, model.node_count)
     everywhere = _assembled(
         6 * model.node_count,
         [
             (model.quads.nodes, quad_stiffness(quad_corners, quads)),
-            (model.triangles.nodes, triangle_stiffness(triangle_corners, triangles)),
+            (model.triangles.nodes, triangle_stiffness(triangle_corners, triangles, lumping)),
             (model.beams.nodes, beam_stiffness(geometry, beams)),
         ],
     )
