@@ -1,5 +1,6 @@
 """Reading ``definition.toml`` into the values of `solver.aircraft.definition`."""
 
+import hashlib
 import math
 import tomllib
 from collections import Counter
@@ -40,6 +41,18 @@ def load_definition(folder: Path) -> values.AircraftDefinition:
         return _definition(checked)
     except ModelError as error:
         raise ModelError(f"{path}: {error}") from error
+
+
+def content_hash(folder: Path, bulk_data: str) -> str:
+    """SHA-256 over definition and bulk data: everything that decides an assessment.
+
+    The digests of the two files are hashed, so that no byte can move from one to the other unseen.
+    """
+    digests = [
+        hashlib.sha256((folder / name).read_bytes()).digest()
+        for name in (values.DEFINITION_FILE, bulk_data)
+    ]
+    return hashlib.sha256(b"".join(digests)).hexdigest()
 
 
 def _problems(error: ValidationError) -> list[str]:
