@@ -70,7 +70,8 @@ class Settings(BaseSettings):
 
     @property
     def celery_broker_url(self) -> str:
-        return self.broker_url or "filesystem://"
+        # The host means nothing to a folder, but its absence would be logged as a mistake.
+        return self.broker_url or "filesystem://localhost"
 
     @property
     def broker_folder(self) -> Path:

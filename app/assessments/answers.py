@@ -1,0 +1,136 @@
+"""Assessments as the service answers them."""
+
+from datetime import datetime
+from typing import Any
+
+from pydantic import BaseModel, Field
+
+from app.assessments.states import State
+from solver.assessment import ADVISORY, Verdict
+
+
+class ReasonOut(BaseModel):
+    """One line of justification."""
+
+    code: str
+    text: str
+    verdict: Verdict = Field(description="The least severe verdict this reason alone would give.")
+
+
+class GearLoadOut(BaseModel):
+    """Peaks of one gear in one contact against its design limits; N, m, s."""
+
+    gear: str
+    contact: int
+    vertical_force: float | None
+    vertical_time: float | None
+    drag_force: float | None
+    spring_back_force: float | None
+    side_force: float | None
+    stroke: float | None
+    tyre_deflection: float | None
+    stroke_utilisation: float | None
+    utilisation: float | None
+    bounces: int
+
+
+class VerdictOut(BaseModel):
+    """What was found and what it rests on."""
+
+    verdict: Verdict
+    is_provisional: bool
+    reasons: list[ReasonOut]
+    probability_limit_exceeded: float | None = Field(
+        description="Null until the record's uncertainty is propagated."
+    )
+    driving_contact: int | None
+    worst_utilisation: float | None = Field(description="Peak stress over limit allowable.")
+    worst_margin: float | None
+    peak_normal_load_factor: float | None = Field(description="[g]")
+    energy_error: float | None
+    equilibrium_residual: float | None
+    gear_loads: list[GearLoadOut]
+    notes: list[str]
+    timing: dict[str, float | None] | None = Field(description="Seconds of each step.")
+    model_hash: str
+    program_version: str
+    inputs: dict[str, Any] = Field(description="What the solver was given: SI, rad.")
+    assessed_at: datetime
+
+
+class AssessmentOut(BaseModel):
+    """An assessment: where it stands and, once it is done, its verdict."""
+
+    id: str
+    landing_id: str
+    state: State
+    lane: str
+    attempts: int
+    created_at: datetime
+    started_at: datetime | None
+    finished_at: datetime | None
+    last_error: str | None = Field(description="Why the last attempt ended without a verdict.")
+    result: VerdictOut | None = None
+    links: dict[str, str]
+    advisory: str = ADVISORY
+
+
+class HotSpotOut(BaseModel):
+    """The worst element of one zone; positions in structural axes [m], stresses in Pa."""
+
+    rank: int
+    component: str
+    zone: str
+    side: str
+    element: int
+    element_kind: str
+    position: tuple[float, float, float]
+    peak_stress: float
+    allowable: float
+    utilisation: float
+    margin: float | None
+    time: float
+    contact: int
+    ata_chapter: str
+    inspection: str
+
+
+class HotSpots(BaseModel):
+    """Hot spots, worst first."""
+
+    assessment_id: str
+    verdict: Verdict
+    items: list[HotSpotOut]
+    advisory: str = ADVISORY
+
+
+class Channel(BaseModel):
+    """One curve on the common time grid."""
+
+    name: str
+    unit: str
+    values: list[float | None]
+
+
+class Histories(BaseModel):
+    """Curves of one contact."""
+
+    assessment_id: str
+    contact: int
+    contacts: int
+    outcome: str
+    ground_contacts: list[dict[str, Any]]
+    time: list[float]
+    channels: list[Channel]
+
+
+class PeakFieldOut(BaseModel):
+    """Every element's peak over the whole landing, in the order of the model's mesh."""
+
+    assessment_id: str
+    model_hash: str
+    element: list[int]
+    stress: list[float | None] = Field(description="von Mises [Pa]")
+    utilisation: list[float | None]
+    time: list[float | None] = Field(description="[s] from the contact")
+    contact: list[int]

@@ -1,0 +1,66 @@
+"""Landings as the service answers them, and how lists of them are filtered."""
+
+from datetime import datetime
+from typing import Any
+
+from pydantic import BaseModel, Field
+
+from app.assessments.states import State
+from app.landings.schemas import Strict, Token, UtcTime
+from app.paging import Cursor, Limit
+from solver.assessment import ADVISORY, Verdict
+
+
+class LandingFilter(Strict):
+    """Every condition given must hold."""
+
+    aircraft: Token | None = None
+    tail: Token | None = None
+    verdict: Verdict | None = None
+    state: State | None = None
+    from_: UtcTime | None = Field(default=None, alias="from", description="Touchdown, inclusive.")
+    to: UtcTime | None = Field(default=None, description="Touchdown, exclusive.")
+    cursor: Cursor = None
+    limit: Limit = 50
+
+
+class LandingSummary(BaseModel):
+    """A landing in a list."""
+
+    id: str
+    record_id: str
+    aircraft: str
+    tail: str | None
+    touchdown_at: datetime
+    received_at: datetime
+    contacts: int
+    assessment_id: str
+    state: State
+    verdict: Verdict | None = None
+    is_provisional: bool | None = None
+    worst_utilisation: float | None = None
+    links: dict[str, str]
+    advisory: str = ADVISORY
+
+
+class LandingDetail(LandingSummary):
+    """A landing with its record and what was made of it."""
+
+    record: dict[str, Any] = Field(description="As posted.")
+    inputs: dict[str, Any] = Field(description="As the solver takes it: SI, rad.")
+    sd: dict[str, float] = Field(description="Standard deviation of each number, SI, rad.")
+    sd_defaulted: list[str] = Field(description="Numbers whose sd is the documented default.")
+    taken_as_zero: list[str] = Field(description="Left out of the record and taken as zero.")
+
+
+class LandingAccepted(BaseModel):
+    """The landing is stored and will be assessed."""
+
+    landing_id: str
+    assessment_id: str
+    state: State
+    is_repeated: bool = Field(description="Whether this record had been accepted before.")
+    sd_defaulted: list[str]
+    taken_as_zero: list[str]
+    missing: list[str] = Field(description="What the record lacks for a verdict.")
+    links: dict[str, str]

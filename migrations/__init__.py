@@ -1,0 +1,1 @@
+"""The history of the schema: one chain for SQLite and Postgres."""
