@@ -1,6 +1,5 @@
 """Aircraft definitions on disk; nothing here assembles a structure."""
 
-import hashlib
 import threading
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,7 +7,7 @@ from pathlib import Path
 import structlog
 
 from solver.aircraft.definition import DEFINITION_FILE, AircraftDefinition
-from solver.aircraft.definition_reader import load_definition
+from solver.aircraft.definition_reader import content_hash, load_definition
 from solver.errors import ModelError
 
 log = structlog.get_logger(__name__)
@@ -25,14 +24,6 @@ class RegisteredAircraft:
     @property
     def bulk_data(self) -> Path:
         return self.folder / self.definition.bulk_data
-
-
-def content_hash(folder: Path, bulk_data: str) -> str:
-    """Hash of everything that decides an assessment: the definition and the bulk data."""
-    sha = hashlib.sha256()
-    for name in (DEFINITION_FILE, bulk_data):
-        sha.update((folder / name).read_bytes())
-    return sha.hexdigest()
 
 
 class AircraftRegistry:
