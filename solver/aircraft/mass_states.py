@@ -5,19 +5,13 @@ bay.  So are mass, first and second moments about the structural origin, from wh
 properties of any state follow at once.
 """
 
-import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from solver.aircraft.definition import MassGroup
-from solver.arrays import Array, BoolArray
-from solver.errors import RecordError
+from solver.aircraft.definition import AircraftDefinition, MassGroup
+from solver.arrays import Array
 from solver.fe.inertia import Inertia, MassProperties
-
-#: Recorded and modelled gross mass may differ by this share before the record is refused.
-MASS_TOLERANCE = 0.01
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,87 +67,38 @@ class LoadedGroup:
 
 
 @dataclass(frozen=True, slots=True)
-class Loading:
-    """A loading state found for a record."""
+class MassStates:
+    """All loading states of one aircraft."""
 
-    factors: Array  #: (n_groups,) tanks, then bays
-    mass: float  #: gross, with the unsprung masses [kg]
-    centre_of_gravity: Array  #: (3,) gross, struts extended, structural axes [m]
-    fuel: dict[str, float]  #: [kg]
-    payload: dict[str, float]  #: [kg]
-    notes: tuple[str, ...]  #: what was assumed and what does not agree
+    definition: AircraftDefinition
+    empty: MassMoments  #: operating empty, without the unsprung masses
+    groups: tuple[LoadedGroup, ...]  #: tanks, then bays
 
+    @property
+    def capacities(self) -> Array:
+        """Masses of the full groups (n_groups,) [kg]."""
+        return np.array([group.capacity for group in self.groups])
 
-def stated_masses(groups: Sequence[LoadedGroup], masses: Mapping[str, float], field: str) -> Array:
-    """Masses (n_groups,) [kg] that a record states, NaN where it says nothing.
+    @property
+    def default_masses(self) -> Array:
+        """Masses assumed where a record says nothing (n_groups,) [kg]."""
+        return self.capacities * [group.definition.default_fill for group in self.groups]
 
-    Raises
-    ------
-    RecordError
-        A name is unknown, or a mass is not from zero to the capacity.
-    """
-    stated = np.full(len(groups), math.nan)
-    rows = {group.name: row for row, group in enumerate(groups)}
-    for name, mass in masses.items():
-        if name not in rows:
-            known = ", ".join(rows) or "none"
-            raise RecordError(f"{field}.{name}: unknown; this aircraft has {known}")
-        capacity = groups[rows[name]].definition.capacity
-        if not 0.0 <= mass <= capacity:
-            raise RecordError(f"{field}.{name} = {mass} kg is outside 0 to {capacity:g} kg")
-        stated[rows[name]] = min(mass, groups[rows[name]].capacity)
-    return stated
+    def properties(self, factors: Array) -> MassProperties:
+        """Rigid-body properties of the loaded airframe without the unsprung masses."""
+        moments = self.empty
+        for factor, group in zip(factors, self.groups, strict=True):
+            moments = moments.plus(float(factor), group.moments)
+        return moments.properties()
 
-
-def spread(amount: float, masses: Array, capacities: Array, free: BoolArray) -> tuple[Array, float]:
-    """Put ``amount`` [kg] (negative: take) into the free groups; returns masses and what is left.
-
-    Each takes in proportion to the room it has (gives in proportion to what it holds), so that
-    port and starboard stay alike and all are full, or empty, at the same moment.
-    """
-    room = np.where(free, capacities - masses if amount > 0 else masses, 0.0)
-    total = float(room.sum())
-    moved = math.copysign(min(abs(amount), total), amount)
-    if total > 0.0:
-        masses = masses + room * (moved / total)
-    return masses, amount - moved
-
-
-def balance(
-    masses: Array, capacities: Array, stations: Array, free: BoolArray, moment: float
-) -> Array:
-    """Shift mass among the free groups to change their moment, total kept, as little as possible.
-
-    Parameters
-    ----------
-    moment : float
-        Wanted change of the sum of mass times station [kg m].
-
-    Returns
-    -------
-    (n_groups,) array
-        New masses within 0 to capacity.  Where the change cannot be reached in full, as much of it
-        as the least-squares shift allows (groups that meet a bound stay there).
-    """
-    masses = masses.copy()
-    active = free.copy()
-    while active.sum() >= 2 and abs(moment) > 1e-9:
-        lever = np.where(active, stations - stations[active].mean(), 0.0)
-        square = float(lever @ lever)
-        if square == 0.0:
-            break
-        step = lever * (moment / square)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            limits = np.where(
-                step > 0, (capacities - masses) / step, np.where(step < 0, -masses / step, np.inf)
-            )
-        share = float(min(1.0, limits[active].min()))
-        masses = np.clip(masses + share * step, 0.0, capacities)
-        moment *= 1.0 - share
-        if share >= 1.0:
-            break
-        active = active & (limits > share * (1 + 1e-12))
-    return masses
+    def gross(self, factors: Array) -> tuple[float, Array]:
+        """Gross mass [kg] and centre of gravity (3,) [m], with the unsprung masses, extended."""
+        body = self.properties(factors)
+        mass, moment = body.mass, body.mass * body.centre_of_gravity
+        for gear in self.definition.gears:
+            axle = gear.pivot + gear.strut.extended_length * gear.axis
+            mass, moment = mass + gear.unsprung_mass, moment + gear.unsprung_mass * axle
+        return mass, moment / mass
 
 
 def _parallel_axes(offset: Array) -> Array:
