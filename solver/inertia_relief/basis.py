@@ -160,7 +160,9 @@ def build_basis(
         term = _without(stiffness, basis, term)
         basis = extended(stiffness, basis, term / scale, settings.tolerance)
     progress("residual vectors", 1.0)
-    return basis
+    # as modes of the middle state, slow ones last: any loading's motion is then concentrated
+    turn = np.linalg.eigh(basis.T @ (middle.mass @ middle.mean_axis(basis)))[1]
+    return basis @ turn
 
 
 def _acting(body: FreeBody, loads: Array) -> Array:

@@ -20,6 +20,7 @@ class ReducedLoading:
     modes: Array  #: (m, m) orthogonal, columns are modes in the model's coordinates
     modes_with_rigid: Array  #: (6 + m, m) the same, made mean-axis for this loading
     rate_operators: Single  #: (12, 6 + m, 6 + m)
+    rate_norms: Array  #: (12, 6 + m) of the operators' columns
     inertia: Array  #: (6 + m, 12)
     centre_of_gravity: Array  #: (3,) [m]
     mass: float  #: [kg]
@@ -64,12 +65,14 @@ def assemble(model: ReducedModel, factors: Array) -> ReducedLoading:
     transfer = np.eye(6)
     transfer[3:, :3] = -skew(centre)
     central = transfer @ rigid @ transfer.T
+    operators = np.tensordot(weights.astype(np.float32), model.rate_operators, axes=1)
     return ReducedLoading(
         model=model,
         circular_frequency=1.0 / np.sqrt(squared_period),
         modes=modes,
         modes_with_rigid=np.vstack([follow @ modes, modes]),
-        rate_operators=np.tensordot(weights.astype(np.float32), model.rate_operators, axes=1),
+        rate_operators=operators,
+        rate_norms=np.sqrt(np.einsum("cij,cij->cj", operators, operators)),
         inertia=np.tensordot(weights, model.inertia, axes=1),
         centre_of_gravity=model.origin + centre,
         mass=mass,

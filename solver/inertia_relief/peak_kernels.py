@@ -1,7 +1,7 @@
 """Compiled inner loops of the peak search: bounds, and exact evaluation where they do not suffice.
 
-Stress rows of an element stay in the first-level cache with the amplitudes of one interval; sixteen
-samples advance together in vector registers.
+Stress rows of an element stay in the first-level cache with the amplitudes of one interval;
+directions are summed in vector registers.
 """
 
 import math
@@ -12,14 +12,14 @@ import numpy as np
 from solver.arrays import Array, IntArray
 from solver.inertia_relief.reduced import Single
 
-#: Samples between two coarse ones; fixed, so that the compiler can unroll it.
+#: Samples between two coarse ones.
 STEP = 16
 #: Covers the rounding of single precision in comparing a bound with a value.
 _MARGIN = np.float32(1.0001)
 _ZERO = np.float32(0.0)
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, fastmath={"contract", "reassoc", "nsz"})
 def _norms(rows: Single, shell: bool, blocks: IntArray, out: Single) -> None:  # pragma: no cover
     """Largest stress of one element for unit norm in each block of directions."""
     for b in range(len(blocks) - 1):
@@ -50,32 +50,27 @@ def _measures(rows: Single, shell: bool, count: int, out: Single) -> None:  # pr
         for j in range(count):
             bottom = rows[0, j] * rows[0, j] + rows[1, j] * rows[1, j] + rows[2, j] * rows[2, j]
             top = rows[3, j] * rows[3, j] + rows[4, j] * rows[4, j] + rows[5, j] * rows[5, j]
-            out[j] = math.sqrt(max(bottom, top))
+            out[j] = math.sqrt(bottom if bottom > top else top)
     else:
         for j in range(count):
             out[j] = rows[0, j] * rows[0, j]
         for row in range(1, 8):
             for j in range(count):
-                out[j] = max(out[j], rows[row, j] * rows[row, j])
+                square = rows[row, j] * rows[row, j]
+                out[j] = square if square > out[j] else out[j]
         for j in range(count):
             out[j] = math.sqrt(out[j] + rows[8, j] * rows[8, j])
 
 
-@numba.njit(cache=True, fastmath={"contract"})
+@numba.njit(cache=True, fastmath={"contract", "reassoc", "nsz"})
 def _evaluate(rows: Single, amplitudes: Single, out: Single) -> None:  # pragma: no cover
-    """Rows of one element at the samples of one interval, (R, r4) times (r4, STEP)."""
+    """Rows of one element at the samples of one interval, (R, r) times (STEP, r)."""
     for row in range(rows.shape[0]):
         for j in range(STEP):
-            out[row, j] = _ZERO
-        for k in range(0, rows.shape[1], 4):
-            a, b, c, d = rows[row, k], rows[row, k + 1], rows[row, k + 2], rows[row, k + 3]
-            for j in range(STEP):
-                out[row, j] += (
-                    a * amplitudes[k, j]
-                    + b * amplitudes[k + 1, j]
-                    + c * amplitudes[k + 2, j]
-                    + d * amplitudes[k + 3, j]
-                )
+            total = _ZERO
+            for k in range(rows.shape[1]):
+                total += rows[row, k] * amplitudes[j, k]
+            out[row, j] = total
 
 
 @numba.njit(cache=True)
@@ -93,11 +88,11 @@ def search_block(
 
     Parameters
     ----------
-    rows : (n, R, r4) array
+    rows : (n, R, r) array
         Stress rows in the plan's directions, R 6 for shells, 9 for beams [Pa].
     coarse_rows : (n, R, ni + 1) array
         The rows at the coarse samples [Pa].
-    amplitudes : (ni, r4, STEP) array
+    amplitudes : (ni, STEP, r) array
         Samples of every interval, its left end first.
     blocks : (nb + 1,) array
         Borders of the blocks of directions.

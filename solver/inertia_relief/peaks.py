@@ -25,6 +25,8 @@ ELEMENT_BLOCK = 256
 #: Directions of deviation that are bounded one by one; the others in blocks.
 SINGLE_DIRECTIONS = 12
 BLOCK_COUNT = 6
+#: Single-precision numbers in a vector register.
+LANES = 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +46,7 @@ class SearchPlan:
     """What bounds every element alike: coarse samples and deviations from straight lines."""
 
     directions: Single  #: (m, r) most deviating first
-    amplitudes: Single  #: (ni, r, STEP) samples of every interval, its left end first
+    amplitudes: Single  #: (ni, STEP, r) samples of every interval, its left end first
     coarse: Single  #: (r, ni + 1) amplitudes at the coarse samples
     blocks: IntArray  #: (nb + 1,) borders of the blocks of directions
     deviation: Single  #: (nb, ni) largest deviation of each block in each interval
@@ -53,7 +55,7 @@ class SearchPlan:
 def plan_search(history: CompressedHistory) -> SearchPlan:
     """Turn the directions so that the deviation from straight lines is concentrated in few.
 
-    The rank is padded with zeros to a multiple of four, the last interval with the last sample.
+    The rank is padded with zeros to whole vector registers, the last interval with the last sample.
     """
     rank, count = history.amplitudes.shape
     intervals = max(1, -(-(count - 1) // STEP))
@@ -61,7 +63,7 @@ def plan_search(history: CompressedHistory) -> SearchPlan:
     deviation = _deviation(padded)
     flat = deviation.reshape(rank, -1)
     turn = np.linalg.eigh(flat @ flat.T)[1][:, ::-1]
-    turned = np.zeros((-(-rank // 4) * 4, padded.shape[1]))
+    turned = np.zeros((-(-rank // LANES) * LANES, padded.shape[1]))
     turned[:rank] = turn.T @ padded
     deviation = _deviation(turned)
     single = min(len(turned), SINGLE_DIRECTIONS)
@@ -73,7 +75,7 @@ def plan_search(history: CompressedHistory) -> SearchPlan:
     samples = turned[:, :-1].reshape(-1, intervals, STEP)
     return SearchPlan(
         directions,
-        np.ascontiguousarray(samples.transpose(1, 0, 2), dtype=np.float32),
+        np.ascontiguousarray(samples.transpose(1, 2, 0), dtype=np.float32),
         np.ascontiguousarray(turned[:, ::STEP], dtype=np.float32),
         blocks,
         np.sqrt(squares.max(axis=2)).astype(np.float32),

@@ -7,7 +7,6 @@ changes nothing beyond the stated tolerance; the k-th sweep is of the order (rat
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 
 from solver.arrays import Array
@@ -15,10 +14,12 @@ from solver.errors import ModelError
 from solver.inertia_relief.loading import ReducedLoading
 from solver.inertia_relief.loads import LandingLoads, equilibrium_residual
 from solver.inertia_relief.modal_recursion import StepCoefficients, modal_response
-from solver.inertia_relief.reduced import Single
+from solver.inertia_relief.rate_loads import RateLoads
 
 #: Largest change by the last sweep, relative to the largest displacement, strain-energy norm.
-SWEEP_TOLERANCE = 1e-6
+SWEEP_TOLERANCE = 1e-5
+#: Share of the tolerance that pseudo loads may leave out; a resonance magnifies some fifty times.
+NEGLIGIBLE = 0.01
 MAXIMUM_SWEEPS = 30
 
 
@@ -31,43 +32,6 @@ class ReducedResponse:
     sweeps: int  #: of the W terms
     last_change: float  #: of the last sweep, see `SWEEP_TOLERANCE`
     equilibrium_residual: float  #: see `equilibrium_residual`
-
-
-@numba.njit(cache=True)
-def _weighted_fields(
-    coefficients: Single, displacement: Single, velocity: Single, out: Single
-) -> None:  # pragma: no cover - compiled
-    """Stack the twelve products of a rate coefficient and a field, (12, M, nt)."""
-    terms, size, count = out.shape
-    for term in range(terms):
-        for i in range(size):
-            for n in range(count):
-                field = velocity[i, n] if term < 3 else displacement[i, n]
-                out[term, i, n] = coefficients[term, n] * field
-
-
-def rate_loads(
-    loading: ReducedLoading, coefficients: Single, displacement: Array, velocity: Array
-) -> Array:
-    """Modal pseudo loads (m, nt) of the W terms on a modal motion (m, nt).
-
-    Single precision is enough: the terms are a small share of the response, and each sweep
-    brings a smaller one.
-    """
-    modes = loading.modes_with_rigid.astype(np.float32)
-    count = displacement.shape[1]
-    fields: Single = modes @ np.hstack([displacement, velocity]).astype(np.float32)
-    stacked = np.empty((len(coefficients), len(fields), count), dtype=np.float32)
-    _weighted_fields(
-        coefficients,
-        np.ascontiguousarray(fields[:, :count]),
-        np.ascontiguousarray(fields[:, count:]),
-        stacked,
-    )
-    operators = loading.rate_operators
-    wide = np.ascontiguousarray(operators.transpose(1, 0, 2)).reshape(len(fields), -1)
-    force = wide @ stacked.reshape(-1, count)
-    return -(modes.T @ force).astype(np.float64)
 
 
 def landing_response(
@@ -114,10 +78,10 @@ def swept_response(
     total = displacement
     if not np.any(rate_coefficients):
         return total, 0, 0.0
-    coefficients = rate_coefficients.astype(np.float32)
     size = _largest(total)
+    loads = RateLoads(loading, rate_coefficients, NEGLIGIBLE * tolerance * size)
     for sweep in range(1, MAXIMUM_SWEEPS + 1):
-        pseudo = rate_loads(loading, coefficients, displacement, velocity)
+        pseudo = loads.of(displacement, velocity)
         displacement, velocity = modal_response(step, pseudo, pseudo[:, 0])
         total += displacement
         change = _largest(displacement) / size

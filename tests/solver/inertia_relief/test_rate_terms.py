@@ -1,0 +1,23 @@
+import numpy as np
+import pytest
+
+from solver.fe.inertia import RATE_PRODUCTS
+from solver.inertia_relief.rate_terms import RateTerms
+from tests.solver.inertia_relief.bodies import beam_structure, winged_body
+
+
+@pytest.mark.parametrize("kind", ["beam", "winged body"])
+def test_force_at_the_mass_points_equals_the_assembled_operators(kind):
+    if kind == "beam":
+        inertia = beam_structure(count=10).inertia
+    else:
+        inertia = winged_body(6, 8).inertia(np.array([0.4, 0.9]))
+    rng = np.random.default_rng(2)
+    rate, derivative = rng.standard_normal(3), rng.standard_normal(3)
+    u, v = rng.standard_normal((2, inertia.n_free))
+    expected = sum(rate[k] * (inertia.gyroscopic(k) @ v) for k in range(3))
+    expected = expected + sum(derivative[k] * (inertia.euler(k) @ u) for k in range(3))
+    for i, j in RATE_PRODUCTS:
+        expected = expected + rate[i] * rate[j] * (inertia.centrifugal(i, j) @ u)
+    found = RateTerms(inertia).force(rate, derivative, u, v)
+    np.testing.assert_allclose(found, expected, atol=1e-12 * np.abs(expected).max())
