@@ -7,7 +7,9 @@ bilinear surface the shape functions describe).  Beams: see `beam.beam_mass_poin
 The rotary inertia of sections is lumped at the nodes: rho t^3/12 per area of a shell about any
 axis in its plane, and the section's second moments of a beam.  About its normal a shell has no
 rotary inertia of its own; `DRILLING_SHARE` of the in-plane figure is given to it so that every
-free freedom has mass and the mass matrix is positive definite.
+free freedom has mass and the mass matrix is positive definite, as long as the material at every
+node has density.  Where it has none, the mass matrix is only semidefinite; K + c M, with which
+time integration works, stays regular, since only rigid modes escape K and they have mass.
 """
 
 import numpy as np

@@ -47,10 +47,9 @@ def straight_cantilever(shape: str = "regular", triangular: bool = False, refine
     base = np.linspace(0, 6, along + 1)
     x = np.stack([base] * (across + 1))
     if shape == "trapezoidal":
-        sign = np.where(np.arange(along + 1) % 2 == 0, 0.0, 1.0)
-        sign[[0, -1]] = 0
+        sign = np.zeros(along + 1)
         sign[1:-1] = np.where(np.arange(1, along) % 2 == 1, 1.0, -1.0)
-        x = x + 0.1 * np.linspace(-1, 1, across + 1)[:, None] * sign
+        x = x + 0.1 / refine * np.linspace(-1, 1, across + 1)[:, None] * sign
     if shape == "parallelogram":
         inner = np.ones(along + 1)
         inner[[0, -1]] = 0
