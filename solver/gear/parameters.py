@@ -124,6 +124,7 @@ class Tyre:
     bottoming_deflection: float = math.inf  #: d_b where the carcass meets the rim [m]
     bottoming_stiffness: float | None = None  #: beyond d_b, added; None: see below [N/m]
     rolling_resistance: float = 0.0  #: moment per vertical force [m]
+    rolling_share: float = 1 / 3  #: of the deflection by which the rolling radius shrinks
     vertical_damping: float = 0.0  #: force times (1 + c d') [s/m]
     crown_radius: float | None = None  #: of the tread across the tyre; None: half the width [m]
     wheel_transverse_inertia: float | None = None  #: None: thin disc, half the spin one [kg m2]

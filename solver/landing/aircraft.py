@@ -16,6 +16,8 @@ class Aerodynamics:
 
     With air density rho and speed V the drag is ``rho V^2 / 2 * drag_area`` against the velocity,
     and the damping moment about each body axis is ``-rho V * damping * rate``.  Zero by default.
+    Lift and drag act at ``lift_point``; left open it is the whole aircraft's centre of gravity,
+    which trims the aircraft at the contact.
     """
 
     drag_area: float = 0.0  #: C_D S, landing configuration [m2]
@@ -23,11 +25,14 @@ class Aerodynamics:
     pitch_damping: float = 0.0  #: -C_mq S c^2 / 4 [m4]
     yaw_damping: float = 0.0  #: -C_nr S b^2 / 4 [m4]
     air_density: float = 1.225  #: [kg/m3]
+    lift_point: Array | None = None  #: (3,) structural axes [m]; None: whole aircraft's c.g.
 
     def __post_init__(self) -> None:
-        for name in self.__slots__:
+        for name in ("drag_area", "roll_damping", "pitch_damping", "yaw_damping", "air_density"):
             if not 0 <= getattr(self, name) < np.inf:
                 raise ModelError(f"{name} must not be negative, got {getattr(self, name):g}")
+        if self.lift_point is not None and np.shape(self.lift_point) != (3,):
+            raise ModelError("lift_point needs 3 values")
 
     @classmethod
     def from_coefficients(
