@@ -73,6 +73,12 @@ def test_twisted_beam_on_the_published_mesh_of_warped_quads():
     assert np.all(np.abs(found - 1) < 0.005), found
 
 
+def test_thin_twisted_beam_of_warped_quads_does_not_lock():
+    """A hundred times thinner, on the published mesh: bending is 1e4 times softer than before."""
+    found = ratios(benchmarks.twisted_beam(2, 12, thin=True))
+    assert np.all(np.abs(found - 1) < 0.01), found
+
+
 @BOTH
 def test_scordelis_lo_roof(triangular):
     found = ratios([benchmarks.scordelis_lo(d, triangular) for d in (4, 8, 16)])
