@@ -8,13 +8,12 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from app.cli.demo import EXAMPLE_AIRCRAFT
 from app.cli.progress import STANDARD_ERROR, progress_bars
 from app.config import get_settings
 from solver.aircraft.airframe import load_airframe
 from solver.aircraft.check import AirframeCheck, check_airframe
 from solver.errors import SolverError
-
-EXAMPLE = "ebj19"
 
 aircraft = typer.Typer(no_args_is_help=True)
 
@@ -28,7 +27,7 @@ def build(
     """Generate the example business jet: definition.toml and its bulk data."""
     from solver.aircraft.bizjet import build_bizjet
 
-    target = folder or get_settings().aircraft_folder / EXAMPLE
+    target = folder or get_settings().aircraft_folder / EXAMPLE_AIRCRAFT
     try:
         with progress_bars() as progress:
             build_bizjet(target, progress=progress)
