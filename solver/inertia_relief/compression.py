@@ -35,7 +35,7 @@ def compress(coordinates: Array, tolerance: float) -> CompressedHistory:
     squares = np.cumsum((amplitudes * amplitudes)[::-1], axis=0)[::-1].max(axis=1)
     largest = float(np.sqrt(squares[0]))
     keep = np.flatnonzero(squares > (tolerance * largest) ** 2)
-    rank = int(keep[-1]) + 1 if len(keep) else 0
+    rank = int(keep[-1]) + 1 if len(keep) else 1
     dropped = float(np.sqrt(squares[rank])) if rank < len(squares) else 0.0
     return CompressedHistory(
         np.ascontiguousarray(directions[:, :rank]),
