@@ -117,7 +117,7 @@ class Assessment:
     verdict: Verdict
     reasons: tuple[Reason, ...]
     probability_limit_exceeded: float | None  #: filled once the record's uncertainty is propagated
-    driving_contact: int
+    driving_contact: int | None  #: None if no contact could be simulated
     worst_utilisation: float
     worst_margin: float
     hot_spots: tuple[HotSpot, ...]

@@ -1,0 +1,228 @@
+"""The one public call: a touchdown record in, an assessment out.
+
+Everything that depends on the aircraft alone is loaded once (`load_assessment_model`); a landing
+then costs a simulation, a small integration and a search for peaks.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+from solver import __version__
+from solver.aircraft.airframe import Airframe, load_airframe
+from solver.arrays import Array
+from solver.assessment import (
+    Assessment,
+    GearLoad,
+    HotSpot,
+    PeakField,
+    Timing,
+    TouchdownRecord,
+)
+from solver.errors import RecordError
+from solver.inertia_relief.build import reduced_model
+from solver.inertia_relief.loading import assemble
+from solver.inertia_relief.loads import landing_loads
+from solver.inertia_relief.peaks import find_peaks
+from solver.inertia_relief.reduced import ReducedModel
+from solver.inertia_relief.response import landing_response
+from solver.landing.history import LandingHistory
+from solver.landing.simulate import simulate_landing
+from solver.progress import Progress, silent
+from solver.verdict.gear_loads import gear_loads
+from solver.verdict.hot_spots import rank_hot_spots
+from solver.verdict.judge import judge, severest
+
+
+@dataclass(frozen=True, slots=True)
+class AssessmentModel:
+    """An aircraft ready to be assessed."""
+
+    airframe: Airframe
+    reduced: ReducedModel
+
+    @property
+    def name(self) -> str:
+        """Name of the aircraft definition."""
+        return self.airframe.definition.name
+
+    @property
+    def content_hash(self) -> str:
+        """Hash of the aircraft's two files; with the program's version it fixes every answer."""
+        return self.airframe.content_hash
+
+
+def load_assessment_model(
+    folder: Path, cache: Path | None, progress: Progress = silent
+) -> AssessmentModel:
+    """Read an aircraft folder and its reduced model, which is built on first use.
+
+    Parameters
+    ----------
+    folder : Path
+        Holds ``definition.toml`` and the bulk data it names.
+    cache : Path, optional
+        Folder of reduced models; None builds in memory.
+
+    Raises
+    ------
+    ModelError
+        The folder cannot be used; says where and why.
+    """
+    airframe = load_airframe(folder, progress)
+    return AssessmentModel(airframe, reduced_model(airframe, cache, progress=progress))
+
+
+def assess_landing(
+    model: AssessmentModel, record: TouchdownRecord, progress: Progress = silent
+) -> Assessment:
+    """Simulate every contact of a landing, stress the airframe, and judge.
+
+    Raises
+    ------
+    RecordError
+        The record asks for something outside the model (loading, attitude, speed).
+    SimulationDivergedError
+        A contact cannot be simulated.
+    EquilibriumError
+        The loads on the structure do not balance; a defect of the model, never of the landing.
+    """
+    if record.aircraft != model.name:
+        raise RecordError(f"aircraft is {record.aircraft!r}, the model is {model.name!r}")
+    start = perf_counter()
+    airframe, definition = model.airframe, model.airframe.definition
+    loading = airframe.loading_for(
+        record.mass, record.centre_of_gravity, record.fuel, record.payload
+    )
+    aircraft = airframe.landing_aircraft(loading.factors)
+    mass = aircraft.total_mass
+
+    clock = _Clock()
+    histories: list[LandingHistory] = []
+    for number, contact in enumerate(record.contacts):
+        progress("landing simulation", number / len(record.contacts))
+        histories.append(simulate_landing(aircraft, contact))
+    clock.lap("simulation")
+
+    reduced = assemble(model.reduced, loading.factors)
+    peaks = _PeakEnvelope(airframe)
+    residual = 0.0
+    for number, history in enumerate(histories):
+        progress("airframe stress", number / len(histories))
+        response = landing_response(reduced, landing_loads(airframe, history))
+        residual = max(residual, response.equilibrium_residual)
+        clock.lap("reduced_solution")
+        found = find_peaks(model.reduced, response)
+        peaks.add(number, found.stress, found.time)
+        clock.lap("peak_search")
+
+    field = peaks.field()
+    loads = tuple(
+        load
+        for number, history in enumerate(histories)
+        for load in gear_loads(definition.gears, history, number)
+    )
+    spots = rank_hot_spots(airframe, field) if histories else ()
+    reasons = judge(definition, record, mass, histories, loads, spots[0] if spots else None)
+    worst = max((spot.utilisation for spot in spots), default=0.0)
+    return Assessment(
+        verdict=severest(reasons),
+        reasons=reasons,
+        probability_limit_exceeded=None,
+        driving_contact=_driving_contact(spots, loads),
+        worst_utilisation=worst,
+        worst_margin=1.0 / worst - 1.0 if worst > 0.0 else float("inf"),
+        hot_spots=spots,
+        gear_loads=loads,
+        peak_normal_load_factor=max(
+            (float(h.normal_load_factor.max()) for h in histories), default=float("nan")
+        ),
+        energy_error=max((h.energy.closure_error for h in histories), default=0.0),
+        equilibrium_residual=residual,
+        notes=(*loading.notes, *_limits_of(record, histories)),
+        model_hash=model.content_hash,
+        program_version=__version__,
+        timing=Timing(
+            simulation=clock.seconds["simulation"],
+            reduced_solution=clock.seconds["reduced_solution"],
+            peak_search=clock.seconds["peak_search"],
+            total=perf_counter() - start,
+        ),
+        peak_field=field if histories else None,
+        histories=tuple(histories),
+    )
+
+
+class _Clock:
+    """Wall-clock seconds between laps, summed by name."""
+
+    def __init__(self) -> None:
+        self.seconds = dict.fromkeys(("simulation", "reduced_solution", "peak_search"), 0.0)
+        self._last = perf_counter()
+
+    def lap(self, name: str) -> None:
+        now = perf_counter()
+        self.seconds[name] += now - self._last
+        self._last = now
+
+
+class _PeakEnvelope:
+    """Largest stress of every element over the contacts added so far."""
+
+    def __init__(self, airframe: Airframe) -> None:
+        self._airframe = airframe
+        count = len(airframe.allowables)
+        self._stress = np.zeros(count)
+        self._time = np.zeros(count)
+        self._contact = np.zeros(count, dtype=np.int64)
+
+    def add(self, contact: int, stress: Array, time: Array) -> None:
+        larger = stress > self._stress
+        self._stress[larger] = stress[larger]
+        self._time[larger] = time[larger]
+        self._contact[larger] = contact
+
+    def field(self) -> PeakField:
+        return PeakField(
+            element_identifiers=self._airframe.structure.model.element_identifiers,
+            stress=self._stress,
+            utilisation=self._stress / self._airframe.allowables,
+            time=self._time,
+            contact=self._contact,
+        )
+
+
+def _driving_contact(spots: tuple[HotSpot, ...], loads: tuple[GearLoad, ...]) -> int | None:
+    """Contact of whatever came closest to its limit, airframe or gear."""
+    used = [(spot.utilisation, spot.contact) for spot in spots]
+    used += [(load.utilisation, load.contact) for load in loads]
+    return max(used, default=(0.0, None), key=lambda pair: pair[0])[1]
+
+
+def _limits_of(record: TouchdownRecord, histories: list[LandingHistory]) -> list[str]:
+    """Return what was assumed, and what this assessment cannot speak for."""
+    notes = []
+    for number, (contact, history) in enumerate(
+        zip(record.contacts, histories, strict=True), start=1
+    ):
+        lift = contact.lift
+        notes.append(
+            f"contact {number}: lift {lift.model}, {lift.fraction:.2f} of the weight at contact"
+            + (
+                ""
+                if lift.model == "held"
+                else f", decaying after {lift.decay_start:.2f} s with a time constant of "
+                f"{lift.decay_time:.2f} s to {lift.residual_fraction:.2f}"
+            )
+        )
+        touched = {stay.gear for stay in history.contacts}
+        notes += [
+            f"contact {number}: {gear.name} did not touch within {history.time[-1]:.1f} s; its "
+            "touchdown is not assessed"
+            for gear in history.gears
+            if gear.name not in touched
+        ]
+    notes.append("not assessed: landing-gear internals, fatigue, pre-existing damage, repairs")
+    return notes

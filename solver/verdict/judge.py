@@ -1,0 +1,191 @@
+"""From margins and contact conditions to a verdict with its reasons.
+
+Every finding becomes a `Reason` that carries the least severe verdict it would give alone; the
+verdict is the most severe of them.  A missed hard landing costs more than a false alarm, so a
+finding never lowers a verdict, and what cannot be told is UNDETERMINED, never NORMAL.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+
+from solver.aircraft.definition import AircraftDefinition
+from solver.assessment import GearLoad, HotSpot, Reason, TouchdownRecord, Verdict
+from solver.landing.history import LandingHistory, Outcome
+
+#: Rising order; HARD outranks UNDETERMINED because what is known already grounds the aircraft.
+SEVERITY = {
+    Verdict.NORMAL: 0,
+    Verdict.FIRM: 1,
+    Verdict.INSPECT: 2,
+    Verdict.UNDETERMINED: 3,
+    Verdict.HARD: 4,
+}
+
+
+def severest(reasons: Sequence[Reason]) -> Verdict:
+    """Return the most severe verdict among the reasons; without any there is none to give."""
+    return max(
+        (reason.verdict for reason in reasons),
+        key=SEVERITY.__getitem__,
+        default=Verdict.UNDETERMINED,
+    )
+
+
+def judge(
+    definition: AircraftDefinition,
+    record: TouchdownRecord,
+    mass: float,
+    histories: Sequence[LandingHistory],
+    loads: Sequence[GearLoad],
+    worst: HotSpot | None,
+) -> tuple[Reason, ...]:
+    """Return all reasons, most severe first; one of them always states the worst utilisation.
+
+    Parameters
+    ----------
+    definition : AircraftDefinition
+        Holds the thresholds.
+    record : TouchdownRecord
+        What was reported.
+    mass : float
+        Gross mass at the landing [kg].
+    histories : sequence of LandingHistory
+        One for each contact of the record.
+    loads : sequence of GearLoad
+        Of every gear in every contact.
+    worst : HotSpot
+        The most used element of the airframe; None if no contact could be simulated.
+    """
+    found = [
+        *_airframe(definition, mass, worst),
+        *_gears(definition, mass, loads),
+        *_conditions(definition, record, mass, histories),
+        *_gaps(record, histories),
+    ]
+    return tuple(sorted(found, key=lambda reason: -SEVERITY[reason.verdict]))
+
+
+def _graded(definition: AircraftDefinition, mass: float, utilisation: float) -> Verdict:
+    """Verdict that a utilisation gives; above the landing mass the lower thresholds come down."""
+    thresholds = definition.verdict
+    overweight = mass > definition.masses.maximum_landing
+    factor = thresholds.overweight_factor if overweight else 1.0
+    if utilisation > 1.0:
+        return Verdict.HARD
+    if utilisation >= thresholds.inspect_utilisation * factor:
+        return Verdict.INSPECT
+    if utilisation >= thresholds.firm_utilisation * factor:
+        return Verdict.FIRM
+    return Verdict.NORMAL
+
+
+def _airframe(
+    definition: AircraftDefinition, mass: float, worst: HotSpot | None
+) -> Iterator[Reason]:
+    if worst is None:
+        return
+    verdict = _graded(definition, mass, worst.utilisation)
+    yield Reason(
+        code="airframe_limit_exceeded" if verdict is Verdict.HARD else "airframe_stress",
+        text=(
+            f"{worst.component}, {worst.zone}: peak stress {worst.peak_stress / 1e6:.0f} MPa is "
+            f"{worst.utilisation:.0%} of the limit allowable {worst.allowable / 1e6:.0f} MPa"
+        ),
+        verdict=verdict,
+    )
+
+
+def _gears(
+    definition: AircraftDefinition, mass: float, loads: Sequence[GearLoad]
+) -> Iterator[Reason]:
+    by_name = {gear.name: gear for gear in definition.gears}
+    for load in loads:
+        verdict = _graded(definition, mass, load.utilisation)
+        if verdict is not Verdict.NORMAL:
+            yield Reason(
+                code="gear_limit_exceeded" if verdict is Verdict.HARD else "gear_load",
+                text=(
+                    f"{load.gear}, contact {load.contact + 1}: ground load is "
+                    f"{load.utilisation:.0%} of the design limit (vertical "
+                    f"{load.vertical_force / 1e3:.1f} kN, drag {load.drag_force / 1e3:.1f} kN, "
+                    f"side {load.side_force / 1e3:.1f} kN)"
+                ),
+                verdict=verdict,
+            )
+        if load.stroke_utilisation >= 1.0:
+            yield Reason(
+                code="strut_bottomed",
+                text=f"{load.gear}, contact {load.contact + 1}: the shock strut reached its stop",
+                verdict=Verdict.INSPECT,
+            )
+        tyre = by_name[load.gear].tyre
+        if load.tyre_deflection >= tyre.bottoming_deflection:
+            yield Reason(
+                code="tyre_bottomed",
+                text=(
+                    f"{load.gear}, contact {load.contact + 1}: tyre deflection "
+                    f"{load.tyre_deflection * 1e3:.0f} mm reached bottoming at "
+                    f"{tyre.bottoming_deflection * 1e3:.0f} mm"
+                ),
+                verdict=Verdict.INSPECT,
+            )
+
+
+def _conditions(
+    definition: AircraftDefinition,
+    record: TouchdownRecord,
+    mass: float,
+    histories: Sequence[LandingHistory],
+) -> Iterator[Reason]:
+    """Contact conditions that ask for a look whatever the simulated stress."""
+    thresholds = definition.verdict
+    positions = {gear.name: gear.position for gear in definition.gears}
+    for number, (contact, history) in enumerate(zip(record.contacts, histories, strict=True), 1):
+        first = min(history.contacts, key=lambda stay: stay.start, default=None)
+        mains = [c.start for c in history.contacts if positions[c.gear] == "main"]
+        if (
+            first is not None
+            and positions[first.gear] == "nose"
+            and first.start < min(mains, default=math.inf)
+        ):
+            yield Reason(
+                code="nose_first",
+                text=(
+                    f"contact {number}: the nose gear touched first, at "
+                    f"{first.closure_speed:.2f} m/s; inspect the nose gear and its attachment"
+                ),
+                verdict=thresholds.nose_first,
+            )
+        if abs(contact.roll) >= thresholds.roll_limit:
+            yield Reason(
+                code="roll_at_contact",
+                text=(
+                    f"contact {number}: roll {math.degrees(contact.roll):.1f} degrees, limit "
+                    f"{math.degrees(thresholds.roll_limit):.1f}; inspect the first gear"
+                ),
+                verdict=Verdict.INSPECT,
+            )
+    limit = definition.masses.maximum_landing
+    if mass > limit:
+        yield Reason(
+            code="overweight",
+            text=f"landed at {mass:.0f} kg, above the maximum landing mass of {limit:.0f} kg",
+            verdict=Verdict.FIRM,
+        )
+
+
+def _gaps(record: TouchdownRecord, histories: Sequence[LandingHistory]) -> Iterator[Reason]:
+    """Return what keeps the record, or its simulation, from carrying a verdict."""
+    if record.missing:
+        yield Reason(
+            code="record_incomplete",
+            text="the record lacks " + "; ".join(record.missing),
+            verdict=Verdict.UNDETERMINED,
+        )
+    for number, history in enumerate(histories, 1):
+        if history.outcome is Outcome.TIME_LIMIT and not history.contacts:
+            yield Reason(
+                code="no_ground_contact",
+                text=f"contact {number}: the simulated aircraft never loaded a gear",
+                verdict=Verdict.UNDETERMINED,
+            )

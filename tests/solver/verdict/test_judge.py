@@ -1,0 +1,215 @@
+"""The verdict from margins and contact conditions: every reason alone, and together."""
+
+import dataclasses
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solver.aircraft.definition import AircraftDefinition
+from solver.aircraft.definition_reader import load_definition
+from solver.assessment import GearLoad, HotSpot, TouchdownRecord, Verdict
+from solver.landing.contact import Contact
+from solver.landing.history import (
+    EnergyAccount,
+    GroundContact,
+    LandingHistory,
+    Outcome,
+)
+from solver.verdict.judge import judge, severest
+from tests.solver.aircraft.mini import write_mini_aircraft
+
+CONTACT = Contact(sink_rate=1.0, ground_speed=55.0)
+
+
+@pytest.fixture(scope="module")
+def definition(tmp_path_factory: pytest.TempPathFactory) -> AircraftDefinition:
+    folder: Path = tmp_path_factory.mktemp("aircraft")
+    return load_definition(write_mini_aircraft(folder))
+
+
+def spot(utilisation: float) -> HotSpot:
+    return HotSpot(
+        rank=1,
+        component="wing",
+        zone="rear spar",
+        side="port",
+        element=1,
+        element_kind="CQUAD4",
+        position=(0.0, 0.0, 0.0),
+        peak_stress=utilisation * 300e6,
+        allowable=300e6,
+        utilisation=utilisation,
+        margin=1 / utilisation - 1,
+        time=0.1,
+        contact=0,
+        ata_chapter="57",
+        inspection="cracks",
+    )
+
+
+def load(gear: str = "main_left", **changes: float) -> GearLoad:
+    values: dict[str, float] = {
+        "vertical_force": 40e3,
+        "vertical_time": 0.1,
+        "drag_force": 1e3,
+        "spring_back_force": 1e3,
+        "side_force": 0.0,
+        "stroke": 0.1,
+        "tyre_deflection": 0.02,
+        "stroke_utilisation": 0.3,
+        "utilisation": 0.3,
+    }
+    return GearLoad(gear=gear, contact=0, bounces=0, **(values | changes))
+
+
+def history(*touched: tuple[str, float], outcome: Outcome = Outcome.SETTLED) -> LandingHistory:
+    """A landing that is nothing but its ground contacts (gear, start)."""
+    empty = np.zeros(1)
+    account = dataclasses.fields(EnergyAccount)
+    energy = EnergyAccount(
+        **{f.name: empty for f in account[:-2]}, impact_energy=1.0, closure_error=0.0
+    )
+    stays = tuple(
+        GroundContact(gear, start, None, 1e3, 0.1, 1e3, 0.1, 1.0) for gear, start in touched
+    )
+    arrays = {f.name: empty for f in dataclasses.fields(LandingHistory)}
+    return LandingHistory(
+        **(arrays | {"gears": (), "contacts": stays, "energy": energy, "outcome": outcome})
+    )
+
+
+MAINS_FIRST = history(("main_left", 0.0), ("main_right", 0.0), ("nose", 0.3))
+
+
+def verdict_of(
+    definition: AircraftDefinition,
+    *,
+    utilisation: float = 0.1,
+    contact: Contact = CONTACT,
+    landing: LandingHistory = MAINS_FIRST,
+    loads: tuple[GearLoad, ...] = (),
+    mass: float = 11_000.0,
+    missing: tuple[str, ...] = (),
+) -> tuple[Verdict, set[str]]:
+    record = TouchdownRecord(aircraft=definition.name, contacts=(contact,), missing=missing)
+    reasons = judge(definition, record, mass, [landing], loads, spot(utilisation))
+    return severest(reasons), {reason.code for reason in reasons}
+
+
+class TestUtilisation:
+    def test_every_threshold_is_where_the_definition_puts_it(
+        self, definition: AircraftDefinition
+    ) -> None:
+        thresholds = definition.verdict
+        for utilisation, expected in (
+            (thresholds.firm_utilisation - 1e-9, Verdict.NORMAL),
+            (thresholds.firm_utilisation, Verdict.FIRM),
+            (thresholds.inspect_utilisation - 1e-9, Verdict.FIRM),
+            (thresholds.inspect_utilisation, Verdict.INSPECT),
+            (1.0, Verdict.INSPECT),
+            (1.0 + 1e-9, Verdict.HARD),
+        ):
+            assert verdict_of(definition, utilisation=utilisation)[0] is expected
+
+    def test_lower_thresholds_apply_above_the_landing_mass(
+        self, definition: AircraftDefinition
+    ) -> None:
+        thresholds = definition.verdict
+        between = thresholds.inspect_utilisation * (1 + thresholds.overweight_factor) / 2
+        heavy = definition.masses.maximum_landing + 1.0
+        assert verdict_of(definition, utilisation=between)[0] is Verdict.FIRM
+        verdict, codes = verdict_of(definition, utilisation=between, mass=heavy)
+        assert verdict is Verdict.INSPECT
+        assert "overweight" in codes
+
+    def test_an_overweight_landing_is_never_normal(self, definition: AircraftDefinition) -> None:
+        heavy = definition.masses.maximum_landing + 1.0
+        assert verdict_of(definition, mass=heavy)[0] is Verdict.FIRM
+
+    def test_a_gear_above_its_design_limit_is_hard_whatever_the_airframe_says(
+        self, definition: AircraftDefinition
+    ) -> None:
+        verdict, codes = verdict_of(definition, loads=(load(utilisation=1.01),))
+        assert verdict is Verdict.HARD
+        assert "gear_limit_exceeded" in codes
+
+    @pytest.mark.parametrize(
+        ("changes", "code"),
+        [
+            ({"stroke_utilisation": 1.0}, "strut_bottomed"),
+            ({"tyre_deflection": 0.08}, "tyre_bottomed"),
+        ],
+    )
+    def test_a_stop_that_was_reached_is_inspected(
+        self, definition: AircraftDefinition, changes: dict[str, float], code: str
+    ) -> None:
+        verdict, codes = verdict_of(definition, loads=(load(**changes),))
+        assert verdict is Verdict.INSPECT
+        assert code in codes
+
+
+class TestContactConditions:
+    def test_nose_first_sends_an_inspector_to_the_nose_gear(
+        self, definition: AircraftDefinition
+    ) -> None:
+        landing = history(("nose", 0.0), ("main_left", 0.1), ("main_right", 0.1))
+        verdict, codes = verdict_of(definition, landing=landing)
+        assert verdict is definition.verdict.nose_first
+        assert "nose_first" in codes
+
+    def test_a_nose_gear_alone_on_the_ground_is_nose_first(
+        self, definition: AircraftDefinition
+    ) -> None:
+        assert "nose_first" in verdict_of(definition, landing=history(("nose", 0.0)))[1]
+
+    def test_a_bounce_onto_the_nose_after_the_mains_is_not_nose_first(
+        self, definition: AircraftDefinition
+    ) -> None:
+        landing = history(("main_left", 0.0), ("nose", 0.2), ("main_left", 0.6))
+        assert "nose_first" not in verdict_of(definition, landing=landing)[1]
+
+    @pytest.mark.parametrize("side", [1.0, -1.0])
+    def test_roll_at_the_limit_is_inspected_on_either_side(
+        self, definition: AircraftDefinition, side: float
+    ) -> None:
+        limit = definition.verdict.roll_limit
+        at = dataclasses.replace(CONTACT, roll=side * limit)
+        below = dataclasses.replace(CONTACT, roll=side * (limit - math.radians(0.01)))
+        assert verdict_of(definition, contact=at)[0] is Verdict.INSPECT
+        assert verdict_of(definition, contact=below)[0] is Verdict.NORMAL
+
+
+class TestWhatCannotBeTold:
+    def test_an_incomplete_record_is_never_normal(self, definition: AircraftDefinition) -> None:
+        verdict, codes = verdict_of(definition, missing=("contacts[0].sink_rate",))
+        assert verdict is Verdict.UNDETERMINED
+        assert "record_incomplete" in codes
+
+    def test_what_is_known_to_be_hard_stays_hard(self, definition: AircraftDefinition) -> None:
+        verdict, _ = verdict_of(definition, utilisation=1.2, missing=("contacts[1].pitch",))
+        assert verdict is Verdict.HARD
+
+    def test_a_landing_that_never_loads_a_gear_is_undetermined(
+        self, definition: AircraftDefinition
+    ) -> None:
+        airborne = history(outcome=Outcome.TIME_LIMIT)
+        assert verdict_of(definition, landing=airborne)[0] is Verdict.UNDETERMINED
+
+    def test_nothing_found_is_no_verdict(self) -> None:
+        assert severest(()) is Verdict.UNDETERMINED
+
+
+def test_reasons_come_most_severe_first(definition: AircraftDefinition) -> None:
+    record = TouchdownRecord(aircraft=definition.name, contacts=(CONTACT,), missing=("x",))
+    heavy = definition.masses.maximum_landing + 1.0
+    loads = (load(utilisation=1.5), load(stroke_utilisation=1.0))
+    reasons = judge(definition, record, heavy, [MAINS_FIRST], loads, spot(0.1))
+    assert [reason.verdict for reason in reasons] == [
+        Verdict.HARD,
+        Verdict.UNDETERMINED,
+        Verdict.INSPECT,
+        Verdict.FIRM,
+        Verdict.NORMAL,
+    ]
