@@ -22,6 +22,14 @@ SEVERITY = {
 }
 
 
+#: Share by which a mass may pass the limit and still be on it: records and fills are rounded.
+MASS_ROUNDING = 1e-4
+
+
+def _is_overweight(definition: AircraftDefinition, mass: float) -> bool:
+    return mass > definition.masses.maximum_landing * (1.0 + MASS_ROUNDING)
+
+
 def severest(reasons: Sequence[Reason]) -> Verdict:
     """Return the most severe verdict among the reasons; without any there is none to give."""
     return max(
@@ -68,8 +76,7 @@ def judge(
 def _graded(definition: AircraftDefinition, mass: float, utilisation: float) -> Verdict:
     """Verdict that a utilisation gives; above the landing mass the lower thresholds come down."""
     thresholds = definition.verdict
-    overweight = mass > definition.masses.maximum_landing
-    factor = thresholds.overweight_factor if overweight else 1.0
+    factor = thresholds.overweight_factor if _is_overweight(definition, mass) else 1.0
     if utilisation > 1.0:
         return Verdict.HARD
     if utilisation >= thresholds.inspect_utilisation * factor:
@@ -165,8 +172,8 @@ def _conditions(
                 ),
                 verdict=Verdict.INSPECT,
             )
-    limit = definition.masses.maximum_landing
-    if mass > limit:
+    if _is_overweight(definition, mass):
+        limit = definition.masses.maximum_landing
         yield Reason(
             code="overweight",
             text=f"landed at {mass:.0f} kg, above the maximum landing mass of {limit:.0f} kg",
