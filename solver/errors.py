@@ -19,3 +19,7 @@ class SimulationDivergedError(SolverError):
 
 class EquilibriumError(SolverError):
     """The loads put on the airframe do not balance the prescribed rigid-body motion."""
+
+
+class StrutBottomedError(SolverError):
+    """A drop test uses up the strut's gas volume, where its equations end."""

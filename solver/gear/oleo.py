@@ -23,7 +23,7 @@ from solver.gear.parameters import Strut
 
 #: Share of the initial gas volume below which the gas law is frozen.  No admissible motion gets
 #: there (the closed stop comes first); it keeps a rejected trial step of an integrator finite.
-SMALLEST_VOLUME = 1e-3
+SMALLEST_VOLUME = 1e-6
 
 
 @numba.njit(cache=True)
