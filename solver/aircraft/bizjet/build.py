@@ -42,6 +42,14 @@ def build_bizjet(
     progress("meshing the airframe", 0.0)
     parts, groups = mesh_bizjet(refinement, gauges)
     progress("writing the airframe", 0.6)
+    write_bizjet(parts, groups, folder, refinement)
+    progress("writing the airframe", 1.0)
+
+
+def write_bizjet(
+    parts: Parts, groups: list[MassGroupRange], folder: Path, refinement: float
+) -> None:
+    """Write a mesh that is there already."""
     write_bulk_data(
         parts.mesh.model(),
         folder / BULK_DATA_FILE,
@@ -49,7 +57,6 @@ def build_bizjet(
     )
     text = definition_text(parts, groups, BULK_DATA_FILE)
     (folder / DEFINITION_FILE).write_text(text, encoding="utf-8")
-    progress("writing the airframe", 1.0)
 
 
 def mesh_bizjet(

@@ -98,11 +98,10 @@ def build_fuselage(mesh: Mesh, divisions: Divisions) -> Fuselage:
 
 
 def part_of(station: float) -> str:
-    """Forward, centre or aft fuselage."""
-    front, _ = dim.centre_box_stations(1)
-    if station < front - BLEND:
+    """Forward, centre or aft fuselage, parted at the ends of metre-long bays."""
+    if station < 8.0:
         return "forward"
-    return "centre" if station < dim.GEAR_BEAM_STATION + 0.7 else "aft"
+    return "centre" if station < 12.0 else "aft"
 
 
 def bay_label(point: Array) -> str:

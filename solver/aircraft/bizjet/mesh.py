@@ -4,8 +4,10 @@ Nodes with equal coordinates are one node, so that parts built one by one from t
 join along their common lines; `Mesh.free_node` makes a node that joins nothing.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,8 +23,10 @@ from solver.fe.model import (
     Shells,
 )
 
-#: Coordinates are compared, and written, in multiples of this [m].
-RESOLUTION = 1e-5
+#: Coordinates are written with this many decimals of a metre.
+DECIMALS = 5
+#: Nodes nearer than this are one node [m].
+JOINT = 1e-4
 #: A bay's name from an element's centroid (3,).
 Label = str | Callable[[Array], str]
 
@@ -44,15 +48,19 @@ class Mesh:
 
     def node(self, x: float, y: float, z: float) -> int:
         """Row of the node at this point, new or not."""
-        key = (round(x / RESOLUTION), round(y / RESOLUTION), round(z / RESOLUTION))
-        if key not in self._rows:
-            self._rows[key] = self.free_node(x, y, z)
-        return self._rows[key]
+        cell = (math.floor(x / JOINT), math.floor(y / JOINT), math.floor(z / JOINT))
+        for near in product(*((k - 1, k, k + 1) for k in cell)):
+            if near in self._rows and math.dist(self.coordinates[self._rows[near]], (x, y, z)) < (
+                JOINT
+            ):
+                return self._rows[near]
+        self._rows[cell] = self.free_node(x, y, z)
+        return self._rows[cell]
 
     def free_node(self, x: float, y: float, z: float) -> int:
         """Row of a new node that no other part finds."""
         point = (float(x), float(y), float(z))
-        self.coordinates.append((round(point[0], 5), round(point[1], 5), round(point[2], 5)))
+        self.coordinates.append(tuple(round(value, DECIMALS) + 0.0 for value in point))  # type: ignore[arg-type]
         return len(self.coordinates) - 1
 
     def grid(self, points: Array) -> IntArray:

@@ -1,0 +1,217 @@
+"""Design cases of the example aircraft: what its structure must carry at limit load.
+
+Landings are simulated (14 CFR 25.473 to 25.481); the conditions that the rules prescribe as forces
+(25.483 to 25.493) and manoeuvres in flight are static.  Every case is a history of applied loads:
+six components at each pin, then the resultant of the air loads about the structural origin.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.aircraft.airframe import Airframe
+from solver.arrays import Array, IntArray
+from solver.gear.pins import pin_load_matrix
+from solver.inertia_relief.loads import LandingLoads, landing_loads
+from solver.landing.aircraft import LandingAircraft
+from solver.landing.contact import Contact, Lift, LiftModel
+from solver.landing.simulate import simulate_landing
+
+STANDARD_GRAVITY = 9.80665  #: [m/s2]
+LIMIT_SINK, TAKEOFF_SINK = 3.048, 1.829  #: 10 ft/s and 6 ft/s, 25.473(a) [m/s]
+TOUCHDOWN_SPEED = 55.0  #: over ground; near 1.25 V_L2 of 25.479(a) for a jet of this size [m/s]
+#: Strut closure and tyre deflection at which prescribed forces act, near those of the peak [m].
+CLOSURE, TYRE_DEFLECTION = 0.25, 0.03
+
+Masses = dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class DesignLoading:
+    """A loading state that structure is sized for."""
+
+    name: str
+    fuel: float  #: both wing tanks together [kg]
+    payload: float  #: share of every bay's capacity
+
+
+#: Maximum landing mass with full payload and with fuel only; take-off likewise; no fuel.
+LOADINGS = (
+    DesignLoading("landing", 2857.0, 1.0),
+    DesignLoading("landing, no payload", 4057.0, 0.0),
+    DesignLoading("take-off", 4308.0, 1.0),
+    DesignLoading("no fuel", 0.0, 1.0),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class LandingCase:
+    """A landing that is simulated."""
+
+    name: str
+    loading: str
+    contact: Contact
+
+
+@dataclass(frozen=True, slots=True)
+class AppliedLoads:
+    """One case as applied loads; ``landing`` where it is a simulated landing as it is."""
+
+    name: str
+    loading: str
+    amplitudes: Array  #: (n_samples, 6 n_pins + 6) [N, N m]
+    landing: LandingLoads | None = None
+
+
+def _level(
+    name: str, loading: str, sink: float, pitch: float, lift: LiftModel = LiftModel.HELD
+) -> LandingCase:
+    contact = Contact(
+        sink_rate=sink, ground_speed=TOUCHDOWN_SPEED, pitch=math.radians(pitch), lift=Lift(lift)
+    )
+    return LandingCase(name, loading, contact)
+
+
+LANDINGS = (
+    _level("two wheels, 10 ft/s", "landing", LIMIT_SINK, 1.0),
+    _level("two wheels, 10 ft/s, lift decays", "landing", LIMIT_SINK, 1.0, LiftModel.DECAYING),
+    _level("two wheels, 10 ft/s, no payload", "landing, no payload", LIMIT_SINK, 1.0),
+    _level("three wheels, 10 ft/s", "landing", LIMIT_SINK, 0.0, LiftModel.DECAYING),
+    _level("tail down 3 degrees, 10 ft/s", "landing", LIMIT_SINK, 3.0, LiftModel.DECAYING),
+    _level("tail down 8 degrees, 10 ft/s", "landing", LIMIT_SINK, 8.0, LiftModel.DECAYING),
+    _level("two wheels, take-off mass, 6 ft/s", "take-off", TAKEOFF_SINK, 1.0, LiftModel.DECAYING),
+    _level("three wheels, take-off mass, 6 ft/s", "take-off", TAKEOFF_SINK, 0.0),
+)  # fmt: skip
+
+
+def fill_factors(airframe: Airframe, loading: DesignLoading) -> Array:
+    """Fill factors (n_groups,) of a design loading."""
+    tanks = {tank.name: loading.fuel / 2 for tank in airframe.definition.tanks}
+    bays = {bay.name: loading.payload * bay.capacity for bay in airframe.definition.bays}
+    return airframe.fill_factors(tanks, bays)
+
+
+def design_cases(airframe: Airframe) -> list[AppliedLoads]:
+    """All design cases of an airframe."""
+    factors = {loading.name: fill_factors(airframe, loading) for loading in LOADINGS}
+    aircraft = {name: airframe.landing_aircraft(fill) for name, fill in factors.items()}
+    cases = [_simulated(airframe, aircraft[case.loading], case) for case in LANDINGS]
+    level = cases[0]
+    cases.append(_one_gear(airframe, level))
+    vertical = float(_main_vertical(airframe, level))
+    cases += _prescribed(airframe, aircraft["landing"], "landing", vertical)
+    for name, load_factor, loading in (
+        ("2.5 g, take-off mass", 2.5, "take-off"),
+        ("2.5 g, no fuel", 2.5, "no fuel"),
+        ("-1 g, take-off mass", -1.0, "take-off"),
+    ):
+        cases.append(_manoeuvre(name, aircraft[loading], loading, load_factor))
+    return cases
+
+
+def _simulated(airframe: Airframe, aircraft: LandingAircraft, case: LandingCase) -> AppliedLoads:
+    loads = landing_loads(airframe, simulate_landing(aircraft, case.contact))
+    return AppliedLoads(
+        case.name, case.loading, loads.applied_amplitudes()[telling(loads.time)], loads
+    )
+
+
+def telling(time: Array) -> IntArray:
+    """Choose samples to look at: every 5 ms while the gears strike, every 50 ms later."""
+    step = max(1, round(0.005 / float(time[1] - time[0])))
+    border = int(np.searchsorted(time, 0.45))
+    early, late = np.arange(0, border, step), np.arange(border, len(time), 10 * step)
+    return np.concatenate([early, late])
+
+
+def _pin_blocks(airframe: Airframe) -> list[slice]:
+    """Columns of each gear's pins among the applied loads."""
+    blocks, first = [], 0
+    for gear in airframe.definition.gears:
+        blocks.append(slice(6 * first, 6 * (first + len(gear.pins))))
+        first += len(gear.pins)
+    return blocks
+
+
+def _one_gear(airframe: Airframe, level: AppliedLoads) -> AppliedLoads:
+    """25.483: the level landing's loads of one main gear alone, the rest reacted by inertia."""
+    amplitudes = level.amplitudes.copy()
+    for gear, block in zip(airframe.definition.gears, _pin_blocks(airframe), strict=True):
+        if not gear.name.endswith("right"):
+            amplitudes[:, block] = 0.0
+    return AppliedLoads("one gear (25.483)", level.loading, amplitudes)
+
+
+def _main_vertical(airframe: Airframe, level: AppliedLoads) -> float:
+    """Largest vertical load of one main gear on the airframe [N]."""
+    peaks = []
+    for gear, block in zip(airframe.definition.gears, _pin_blocks(airframe), strict=True):
+        if gear.position == "main":
+            forces = level.amplitudes[:, block].reshape(len(level.amplitudes), -1, 6)
+            peaks.append(forces[:, :, 2].sum(axis=1).max())
+    return float(max(peaks))
+
+
+def _prescribed(
+    airframe: Airframe, aircraft: LandingAircraft, loading: str, vertical: float
+) -> list[AppliedLoads]:
+    """Ground conditions given as forces: drag aft, side starboard, vertical up on the tyre [N]."""
+    weight = aircraft.total_mass * STANDARD_GRAVITY
+    nose = airframe.definition.gears[0].pivot[0]
+    main = airframe.definition.gears[1].pivot[0]
+    centre = aircraft.total_centre_of_gravity
+    share = float((centre[0] - nose) / (main - nose)) / 2  # of one main gear
+    drift = 0.75 * vertical
+    half = 0.5 * vertical
+    braked = 1.2 * weight * share
+    front = 1.2 * weight * (1 - 2 * share)
+    zero = (0.0, 0.0, 0.0)
+    table: Sequence[tuple[str, float, tuple[tuple[float, float, float], ...]]] = (
+        ("drift (25.479(d)(2))", 1.0,
+         (zero, (0.4 * drift, 0.25 * drift, drift), (0.4 * drift, 0.25 * drift, drift))),
+        ("side load (25.485)", 1.0,
+         (zero, (0.0, 0.8 * half, half), (0.0, 0.6 * half, half))),
+        ("braked roll, 1.2 g (25.493(b))", 0.0,
+         ((0.0, 0.0, front), (0.8 * braked, 0.0, braked), (0.8 * braked, 0.0, braked))),
+        ("nose-wheel yaw (25.499)", 0.0,
+         ((0.0, 0.8 * front / 1.2, front / 1.2), (0.0, 0.0, braked / 1.2),
+          (0.0, 0.0, braked / 1.2))),
+    )  # fmt: skip
+    cases = []
+    for name, lift, forces in table:
+        pins = [_ground_force(aircraft, gear, np.array(force)) for gear, force in enumerate(forces)]
+        air = _vertical_air_load(lift * weight, centre)
+        cases.append(AppliedLoads(name, loading, np.concatenate([*pins, air])[None]))
+    return cases
+
+
+def _ground_force(aircraft: LandingAircraft, number: int, force: Array) -> Array:
+    """Pin loads (6 n_pins,) of a force on a tyre at the ground, structural axes."""
+    gear = aircraft.gears[number]
+    length = gear.strut.extended_length - CLOSURE
+    ground = gear.pivot + length * gear.axis
+    ground = ground - np.array([0.0, 0.0, gear.tyre.free_radius - TYRE_DEFLECTION])
+    wrench = np.concatenate([force, np.cross(ground - gear.pivot, force)])
+    return np.asarray(pin_load_matrix(gear.pins, gear.pivot) @ wrench)
+
+
+def _vertical_air_load(lift: float, centre: Array) -> Array:
+    """Resultant (6,) about the structural origin of a lift through ``centre``."""
+    force = np.array([0.0, 0.0, lift])
+    return np.concatenate([force, np.cross(centre, force)])
+
+
+def _manoeuvre(
+    name: str, aircraft: LandingAircraft, loading: str, load_factor: float
+) -> AppliedLoads:
+    """Symmetrical manoeuvre; the unsprung masses hang on the pins."""
+    acceleration = load_factor * STANDARD_GRAVITY
+    pins = []
+    for gear in aircraft.gears:
+        weight = np.array([0.0, 0.0, -gear.unsprung_mass * acceleration])
+        wrench = np.concatenate([weight, np.cross(gear.extended_axle - gear.pivot, weight)])
+        pins.append(pin_load_matrix(gear.pins, gear.pivot) @ wrench)
+    lift = _vertical_air_load(aircraft.total_mass * acceleration, aircraft.total_centre_of_gravity)
+    return AppliedLoads(name, loading, np.concatenate([*pins, lift])[None])
