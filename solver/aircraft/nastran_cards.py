@@ -13,7 +13,7 @@ from solver.errors import ModelError
 
 _NAME = re.compile(r"[A-Z][A-Z0-9]*\*?$")
 _REAL = re.compile(r"([+-]?(?:\d+\.\d*|\.\d+))(?:[ED]([+-]?\d+)|([+-]\d+))?$")
-_ZERO = re.compile(r"[+-]?(?:0+\.?0*|\.0+)(?:[ED]?[+-]?\d+)?$")
+_ZERO = re.compile(r"[+-]?(?:0+\.?0*|\.0+)(?:[ED][+-]?\d+|[+-]\d+)?$")
 _INTEGER = re.compile(r"[+-]?\d+$")
 _BEGIN = re.compile(r"\s*BEGIN\b(.*)$", re.IGNORECASE)
 _BULK = re.compile(r"\s+BULK\s*$", re.IGNORECASE)
@@ -116,6 +116,8 @@ def read_cards(text: str, source: str) -> Iterator[Card]:
             line = line.expandtabs(8)
         if line.startswith("ENDDATA"):
             break
+        if _BEGIN.match(line):
+            raise ModelError(f"{source} line {number}: a second BEGIN is not supported")
         if _INCLUDE.match(line):
             raise ModelError(f"{source} line {number}: INCLUDE is not supported; join the files")
         head, fields, next_tag = _split(line, source, number)
@@ -126,8 +128,6 @@ def read_cards(text: str, source: str) -> Iterator[Card]:
                 yield card
             if _NAME.match(head) is None:
                 raise ModelError(f"{source} line {number}: {head!r} starts no card")
-            if head == "BEGIN":
-                raise ModelError(f"{source} line {number}: a second BEGIN is not supported")
             card = Card(source, number, head.rstrip("*"), fields)
             half_open = large
         else:

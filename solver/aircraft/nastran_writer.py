@@ -1,12 +1,13 @@
 """Nastran bulk data out: a `FiniteElementModel` becomes a file that reads back the same.
 
 Cards with reals are written in large-field format.  Of the decimal forms that fit its 16
-characters the closest is chosen: most numbers keep 13 to 15 digits, none fewer than 10 (negative,
-three-digit exponent), so that reading agrees to 1e-12 for the sizes that airframes have
-(1e-9 to 1e12, either sign).  What was read once is written and read again without any change.
+characters the closest is chosen, so that numbers with up to 10 digits are exact.  The others keep
+14 digits as a rule, 12 at least if they are from 1e-9 to 1e12 in size (a sign and an exponent cost
+a digit each), 10 at worst.  What was read once is written and read again without any change.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
@@ -64,36 +65,28 @@ def format_real(value: float) -> str:
             best, smallest = text, error
         if error == 0.0:
             break
+    if not best:
+        raise ModelError(f"{value} cannot be written to bulk data")
     return best
 
 
 def _candidates(value: float) -> Iterator[str]:
     """Forms that fit: shortest exact, positional, mantissa with exponent (0 or 1 digit ahead)."""
-    mantissa, exponent = f"{value:.17e}".split("e")
-    power = int(exponent)
+    power = int(f"{value:e}".split("e")[1])
     if -4 <= power <= 14:
-        text = _trimmed(repr(value)) if "e" not in repr(value) else ""
-        if text and len(text) <= _WIDTH:
-            yield text
-        for places in range(17, -1, -1):
-            text = _trimmed(f"{value:.{places}f}")
-            if len(text) <= _WIDTH:
+        for text in (repr(value), *(f"{value:.{places}f}" for places in range(17, -1, -1))):
+            text = _trimmed(text)
+            if "e" not in text and len(text) <= _WIDTH:
                 yield text
                 break
     for shift in (0, 1):
         suffix = f"{power + shift:+d}"
-        room = _WIDTH - len(suffix)
-        for digits in range(17, 0, -1):
-            text = _trimmed(f"{_shifted(mantissa, shift, digits)}")
-            if len(text) <= room:
+        mantissa = Decimal(value).scaleb(-power - shift)
+        for digits in range(_WIDTH, 0, -1):
+            text = _trimmed(f"{mantissa:.{digits}f}")
+            if len(text) + len(suffix) <= _WIDTH:
                 yield text + suffix
                 break
-
-
-def _shifted(mantissa: str, shift: int, digits: int) -> str:
-    """Mantissa d.ddd rounded to ``digits`` decimals, or .dddd when shifted by one place."""
-    value = float(mantissa)
-    return f"{value:.{digits}f}" if shift == 0 else f"{value / 10:.{digits}f}"
 
 
 def _trimmed(text: str) -> str:
