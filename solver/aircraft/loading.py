@@ -51,8 +51,9 @@ def find_loading(
 
     In this order: stated fuel and payload are kept; other tanks and bays start at their default
     fill; if the gross mass is stated, the other bays take up the difference, and what they cannot
-    hold goes to the other tanks; if the centre of gravity is stated, payload (of the bays not
-    stated) is shifted at constant mass towards it.
+    hold goes to the other tanks; if the centre of gravity is stated, mass is shifted towards it at
+    constant total, first among the bays not stated, then also between them and the tanks unless
+    any of these is stated (which would load one wing more than the other).
 
     Parameters
     ----------
@@ -79,11 +80,12 @@ def find_loading(
     if mass is not None:
         masses = _meet_mass(states, mass, masses, free_tanks, free_bays, notes)
     if centre_of_gravity is not None:
-        if free_bays.sum() >= 2:
-            stations = np.array([group.moments.first[0] for group in states.groups]) / capacities
+        stations = np.array([group.moments.first[0] for group in states.groups]) / capacities
+        no_tank_stated = bool(np.all(free_tanks[tanks]))
+        for free in (free_bays, free_bays | (free_tanks & no_tank_stated)):
             gross, centre = states.gross(masses / capacities)
             change = gross * (centre_of_gravity - float(centre[0]))
-            masses = balance(masses, capacities, stations, free_bays, change)
+            masses = balance(masses, capacities, stations, free, change)
         _note_centre(states, centre_of_gravity, masses / capacities, notes)
     gross, centre = states.gross(masses / capacities)
     names = [group.name for group in states.groups]

@@ -89,9 +89,22 @@ class TestLoadingForARecord:
         with pytest.raises(RecordError, match=f"mass = .* cannot be met: .*{weighs}"):
             mini.loading_for(**arguments)
 
+    def test_a_stated_centre_of_gravity_is_met_by_shifting_payload_against_fuel(self, mini):
+        before = mini.loading_for(mass=12000.0)
+        wanted = float(before.centre_of_gravity[0]) + 0.03
+        loading = mini.loading_for(mass=12000.0, centre_of_gravity=wanted)
+        assert loading.mass == pytest.approx(12000.0, rel=1e-12)
+        assert loading.centre_of_gravity[0] == pytest.approx(wanted, abs=1e-9)
+        # the cabin is ahead of the tanks: moving aft takes payload and adds fuel, both wings alike
+        assert loading.payload["cabin"] < before.payload["cabin"]
+        assert loading.fuel["wing_left"] == pytest.approx(loading.fuel["wing_right"], rel=1e-12)
+        assert not any("centre of gravity" in note for note in loading.notes)
+
     def test_a_centre_of_gravity_out_of_reach_is_noted_with_both_figures(self, mini):
-        # one bay leaves nothing to shift
-        loading = mini.loading_for(mass=12000.0, centre_of_gravity=9.5)
+        loading = mini.loading_for(
+            mass=12000.0, centre_of_gravity=9.5, fuel={"wing_left": 1500.0, "wing_right": 1500.0}
+        )
+        assert loading.fuel == {"wing_left": pytest.approx(1500), "wing_right": pytest.approx(1500)}
         assert any("9.500 m (10.0 % MAC) cannot be met" in note for note in loading.notes)
 
     def test_a_centre_of_gravity_that_agrees_is_not_mentioned(self, mini):
