@@ -41,7 +41,8 @@ HARMLESS_PARAMETERS = frozenset(
         "PATVER", "POST", "PRGPST", "PRTMAXIM", "SNORM", "TINY", "USETPRT",
     }
 )  # fmt: skip
-_CARDS = frozenset(
+#: Every card that is read (``PARAM`` only to be passed over or refused).
+SUPPORTED_CARDS = frozenset(
     {
         "GRID", "CORD2R", "CQUAD4", "CTRIA3", "CBAR", "PSHELL", "PBAR", "PBARL", "MAT1", "CONM2",
         "RBE2", "RBE3", "PARAM",
@@ -76,7 +77,7 @@ def parse_bulk_data(text: str, source: str = "bulk data") -> Deck:
     """Read bulk data from a string; ``source`` names it in messages."""
     cards: dict[str, list[Card]] = defaultdict(list)
     for card in read_cards(text, source):
-        if card.name not in _CARDS:
+        if card.name not in SUPPORTED_CARDS:
             raise card.error("this card is not supported")
         cards[card.name].append(card)
     if not cards["GRID"]:
