@@ -163,6 +163,7 @@ class AerodynamicsPart(_Part):
     roll_damping: Annotated[float, Field(ge=0, alias="roll_damping_m4")] = 0.0
     pitch_damping: Annotated[float, Field(ge=0, alias="pitch_damping_m4")] = 0.0
     yaw_damping: Annotated[float, Field(ge=0, alias="yaw_damping_m4")] = 0.0
+    lift_slope_area: Annotated[float, Field(ge=0, alias="lift_slope_area_m2_rad")] = 0.0
     air_density: Annotated[float, Field(gt=0, le=2, alias="air_density_kg_m3")] = 1.225
     lift_point: Annotated[Vector | None, Field(alias="lift_point_m")] = None
 

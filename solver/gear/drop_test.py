@@ -47,6 +47,8 @@ TIME_LIMIT = 3.0
 TOLERANCE = 1e-10
 #: Break-outs and returns after which a test counts as chattering.
 PHASE_LIMIT = 200
+#: How long a strut that opens up again at once goes on before its return is looked for [s].
+CLEARANCE_TIME = 1e-5
 #: Samples per phase among which peaks are looked for.
 SAMPLES = 1500
 
@@ -271,21 +273,24 @@ def _phases(equations: _Equations) -> tuple[list[_Phase], float, Array]:
     def leaves_ground(_time: float, state: Array) -> float:
         return float(state[2])
 
+    def lands(_time: float, state: Array) -> float:
+        return float(state[2])
+
     def bottoms(_time: float, state: Array) -> float:
         return float(state[0] - state[2] - p.stroke_limit * (1 - 2 * SMALLEST_VOLUME))
 
     _terminal(breaks_out, 1)
     _terminal(returns, -1)
     _terminal(leaves_ground, -1)
+    _terminal(lands, 1)
     _terminal(bottoms, 1)
 
-    time, is_rigid, impact_loss = 0.0, True, 0.0
+    time, is_rigid, is_on_ground, impact_loss = 0.0, True, True, 0.0
     state = np.array([0.0, p.contact_speed, 0.0, p.contact_speed, 0.0])
     phases: list[_Phase] = []
-    while time < TIME_LIMIT:
-        if len(phases) == PHASE_LIMIT:
-            raise SimulationDivergedError(f"the strut broke out and returned {PHASE_LIMIT} times")
-        events = [leaves_ground] + ([breaks_out] if is_rigid else [returns, bottoms])
+    for _ in range(PHASE_LIMIT):
+        events = [leaves_ground if is_on_ground else lands]
+        events += [breaks_out] if is_rigid else [returns, bottoms]
         solution = solve_ivp(
             equations.rigid if is_rigid else equations.free,
             (time, TIME_LIMIT),
@@ -304,13 +309,17 @@ def _phases(equations: _Equations) -> tuple[list[_Phase], float, Array]:
             phases.append(_Phase(time, end, solution.sol, is_rigid))
         time, state = end, solution.y[:, -1].copy()
         if solution.status == 0:
-            break
-        left, other = len(solution.t_events[0]) > 0, len(solution.t_events[1]) > 0
+            return phases, impact_loss, state
+        crossed, other = len(solution.t_events[0]) > 0, len(solution.t_events[1]) > 0
         if not is_rigid and len(solution.t_events[2]) > 0:
             raise StrutBottomedError(
                 f"the strut reaches {p.stroke_limit:.4g} m, where its gas volume is used up, "
                 f"{time:.4g} s after contact"
             )
+        if crossed:
+            is_on_ground = not is_on_ground
+            if not is_on_ground and state[1] < 0 and state[1] <= state[3]:
+                return phases, impact_loss, state
         if other and is_rigid:
             is_rigid = False
         elif other:
@@ -319,11 +328,22 @@ def _phases(equations: _Equations) -> tuple[list[_Phase], float, Array]:
             impact_loss += 0.5 * reduced * closing**2
             state[1] = state[3] = (p.upper_mass * state[1] + p.lower_mass * state[3]) / p.mass
             state[0] = state[2]
-            # With more than the break-out force on the tyre the strut opens up again at once.
             is_rigid = breaks_out(time, state) <= 0
-        elif left and state[1] < 0 and state[1] <= state[3]:
-            break
-    return phases, impact_loss, state
+            if not is_rigid:
+                # More than the break-out force is on the tyre and the strut opens up again at
+                # once; the return event must not see its start at zero stroke.
+                part = solve_ivp(
+                    equations.free,
+                    (time, time + CLEARANCE_TIME),
+                    state,
+                    method="DOP853",
+                    rtol=TOLERANCE,
+                    atol=1e-13,
+                    dense_output=True,
+                )
+                phases.append(_Phase(time, time + CLEARANCE_TIME, part.sol, is_rigid=False))
+                time, state = time + CLEARANCE_TIME, part.y[:, -1].copy()
+    raise SimulationDivergedError(f"the strut broke out or returned {PHASE_LIMIT} times")
 
 
 def _terminal(event: Any, direction: int) -> None:  # solve_ivp reads attributes of the function

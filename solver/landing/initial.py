@@ -14,6 +14,7 @@ from solver.landing.equations import (
     WORK_STATES,
     evaluate,
 )
+from solver.landing.lift import angle_of_attack
 from solver.landing.records import Record, Records
 
 #: What a contact may be.  Wider than any aircraft's envelope: beyond these the record is wrong.
@@ -58,7 +59,8 @@ def initial_state(contact: Contact, airframe: Record, gears: Records, course: Ar
     contact : Contact
         Motion of the WHOLE aircraft's centre of gravity.
     airframe, gears, course
-        As for `solver.landing.equations.evaluate`.
+        As for `solver.landing.equations.evaluate`; the airframe's angle of attack at the contact
+        is filled in here.
 
     Returns
     -------
@@ -72,6 +74,8 @@ def initial_state(contact: Contact, airframe: Record, gears: Records, course: Ar
     state[7:10] = [contact.ground_speed, 0.0, contact.sink_rate]
     state[7:10] -= turn @ np.cross(rate, airframe["centre_of_gravity"])
     state[10:13] = rate
+    point_velocity = turn.T @ state[7:10] + np.cross(rate, airframe["lift_point"])
+    airframe["contact_angle_of_attack"] = angle_of_attack(tuple(point_velocity))
     _hang(state, airframe, gears, course)
     _, _, gear_answers = _evaluated(state, airframe, gears, course)
     # The deflection of a tyre grows with the depth one to one.

@@ -1,13 +1,17 @@
 """Lift and the other air loads of a landing.
 
 Lift is an input of each landing, never a hidden default.  It is the vertical part of the air loads
-on the whole aircraft and acts through the whole aircraft's centre of gravity, so that the aircraft
-is in trim at the contact; the spoilers (or the pilot) take it away:
+on the whole aircraft and acts through the whole aircraft's centre of gravity (unless the aircraft
+names another point), so that the aircraft is in trim at the contact; the spoilers (or the pilot)
+take it away:
 
     HELD      L = fraction * weight for ever
     DECAYING  L = fraction * weight until ``decay_start``, from then on towards
               ``residual_fraction * weight`` with the time constant ``decay_time``
     TRIMMED   as DECAYING, with the fraction read off the normal acceleration before the contact
+
+That course holds at the contact's angle of attack.  An aircraft with a lift slope gains or loses
+lift with the angle from there (quasi-steady); the sum is never negative.
 
 With lift equal to weight for ever an aircraft that touches one wheel first hops off it and never
 loads the others; that is why HELD is not the default.
@@ -82,14 +86,25 @@ def lift_fraction(
 
 
 @numba.njit(cache=True)
+def angle_of_attack(velocity: Vector) -> float:
+    """Angle between the body's x axis and its velocity in the plane of symmetry [rad]."""
+    return math.atan2(velocity[2], velocity[0])
+
+
+@numba.njit(cache=True)
 def air_loads(
-    airframe: Record, lift: float, velocity: Vector, rate: Vector, below: Vector
+    airframe: Record, course_lift: float, velocity: Vector, rate: Vector, below: Vector
 ) -> tuple[Vector, Vector, Vector]:
     """Lift [N], drag [N] and damping moment [N m], body axes.
 
     Lift and drag act at ``airframe.lift_point``; ``velocity`` is that point's (the air is at rest).
     """
     speed = math.sqrt(dot(velocity, velocity))
+    lift = course_lift
+    if airframe.lift_slope_area > 0.0:
+        change = angle_of_attack(velocity) - airframe.contact_angle_of_attack
+        pressure = 0.5 * airframe.air_density * speed**2
+        lift = max(0.0, course_lift + pressure * airframe.lift_slope_area * change)
     drag = -0.5 * airframe.air_density * airframe.drag_area * speed
     factor = -airframe.air_density * speed
     damping = vector(airframe.damping)

@@ -84,6 +84,8 @@ AIRFRAME_RECORD = np.dtype(
         ("gravity", np.float64),
         ("air_density", np.float64),
         ("drag_area", np.float64),
+        ("lift_slope_area", np.float64),
+        ("contact_angle_of_attack", np.float64),  # at which the input's lift holds [rad]
         ("damping", np.float64, 3),  # about the body axes [m4]
     ]
 )
@@ -91,7 +93,7 @@ AIRFRAME_RECORD = np.dtype(
 
 def gear_record(gear: Gear, origin: Array) -> Record:
     """Gear as a `GEAR_RECORD`; ``origin`` is the airframe's centre of gravity (structural axes)."""
-    record = np.zeros((), dtype=GEAR_RECORD)
+    record: Record = np.zeros(1, dtype=GEAR_RECORD)[0]
     down = body_structural(gear.axis / np.linalg.norm(gear.axis))
     starboard = np.array([0.0, 1.0, 0.0])
     lateral = starboard - down * (down @ starboard)
@@ -124,12 +126,12 @@ def gear_record(gear: Gear, origin: Array) -> Record:
     for index, (stroke, ratio) in enumerate(strut.metering):
         record["metering_stroke"][index] = stroke
         record["metering_ratio"][index] = ratio
-    return record[()]
+    return record
 
 
 def airframe_record(aircraft: LandingAircraft) -> Record:
-    """Airframe as an `AIRFRAME_RECORD`."""
-    record = np.zeros((), dtype=AIRFRAME_RECORD)
+    """Airframe as an `AIRFRAME_RECORD`, the angle of attack left for the initial state to fill."""
+    record: Record = np.zeros(1, dtype=AIRFRAME_RECORD)[0]
     aerodynamics = aircraft.aerodynamics
     record["mass"] = aircraft.mass
     record["inertia"] = aircraft.inertia * np.outer(BODY_STRUCTURAL, BODY_STRUCTURAL)
@@ -144,9 +146,10 @@ def airframe_record(aircraft: LandingAircraft) -> Record:
     record["gravity"] = GRAVITY
     record["air_density"] = aerodynamics.air_density
     record["drag_area"] = aerodynamics.drag_area
+    record["lift_slope_area"] = aerodynamics.lift_slope_area
     record["damping"] = (
         aerodynamics.roll_damping,
         aerodynamics.pitch_damping,
         aerodynamics.yaw_damping,
     )
-    return record[()]
+    return record
