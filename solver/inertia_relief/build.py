@@ -45,7 +45,7 @@ def project(
         masses.append(mass)
         operators.append(terms.astype(np.float32))
         inertial.append(full.T @ part.rigid_load_shapes(origin))
-    shell_stress, beam_stress = reduced_stress_rows(recovery, basis)
+    shell_stress, beam_stress, beam_points = reduced_stress_rows(recovery, basis)
     progress("projection", 1.0)
     return ReducedModel(
         key=key,
@@ -57,6 +57,7 @@ def project(
         inertia=np.stack(inertial),
         shell_stress=shell_stress,
         beam_stress=beam_stress,
+        beam_points=beam_points,
     )
 
 

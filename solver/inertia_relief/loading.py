@@ -20,7 +20,7 @@ class ReducedLoading:
     modes: Array  #: (m, m) orthogonal, columns are modes in the model's coordinates
     modes_with_rigid: Array  #: (6 + m, m) the same, made mean-axis for this loading
     rate_operators: Single  #: (12, 6 + m, 6 + m)
-    rate_norms: Array  #: (12, 6 + m) of the operators' columns
+    rate_norms: Array  #: (12, 6 + m) modal loads of unit coordinates are at most this
     inertia: Array  #: (6 + m, 12)
     centre_of_gravity: Array  #: (3,) [m]
     mass: float  #: [kg]
@@ -72,10 +72,24 @@ def assemble(model: ReducedModel, factors: Array) -> ReducedLoading:
         modes=modes,
         modes_with_rigid=np.vstack([follow @ modes, modes]),
         rate_operators=operators,
-        rate_norms=np.sqrt(np.einsum("cij,cij->cj", operators, operators)),
+        rate_norms=_column_norms(operators, follow),
         inertia=np.tensordot(weights, model.inertia, axes=1),
         centre_of_gravity=model.origin + centre,
         mass=mass,
         gyration_radius=float(np.sqrt(np.trace(central[3:, 3:]) / (2 * mass))),
         rigid_transfer=transfer,
     )
+
+
+def _column_norms(operators: Single, follow: Array) -> Array:
+    """Bounds (12, 6 + m) of the modal loads that unit coordinates cause through each operator.
+
+    Loads on the rigid modes reach the elastic ones only through the little that these follow.
+    """
+    elastic = operators[:, 6:]
+    squares = np.einsum("cij,cij->cj", elastic, elastic).astype(np.float64)
+    through_rigid = np.tensordot(
+        np.abs(operators[:, :6]), np.linalg.norm(follow, axis=1), axes=([1], [0])
+    )
+    bounds: Array = np.sqrt(squares) + through_rigid
+    return bounds

@@ -1,8 +1,9 @@
 """The W terms of eq (15) in reduced coordinates, as pseudo loads of a motion already known.
 
 All twelve operators act in one matrix product per sweep, in single precision: the terms are a small
-share of the response and each sweep brings a smaller one.  Coordinates whose part in the loads is
-provably negligible are left out; in a basis of modes those are most of the fast ones.
+share of the response and each sweep brings a smaller one.  A product of one rate coefficient and
+one coordinate enters only if its part in the loads matters: the bounds of those left out add up to
+less than a stated norm.  Slow motion under small rates needs few of the 12 (6 + m) products.
 """
 
 import numba
@@ -14,19 +15,23 @@ from solver.inertia_relief.reduced import Single
 
 
 @numba.njit(cache=True)
-def _weighted_fields(
-    coefficients: Single, displacement: Single, velocity: Single, out: Single
+def _products(
+    coefficients: Single,
+    displacement: Single,
+    velocity: Single,
+    terms: IntArray,
+    coordinates: IntArray,
+    out: Single,
 ) -> None:  # pragma: no cover - compiled
-    """Stack the twelve products (12, a, nt) of a coefficient's history and a field."""
-    terms, size, count = out.shape
-    for term in range(terms):
-        for i in range(size):
-            if term < 3:
-                for n in range(count):
-                    out[term, i, n] = coefficients[term, n] * velocity[i, n]
-            else:
-                for n in range(count):
-                    out[term, i, n] = coefficients[term, n] * displacement[i, n]
+    """Histories (k, nt) of a coefficient times the field it acts on."""
+    for k in range(len(terms)):
+        term, i = terms[k], coordinates[k]
+        if term < 3:
+            for n in range(out.shape[1]):
+                out[k, n] = coefficients[term, n] * velocity[i, n]
+        else:
+            for n in range(out.shape[1]):
+                out[k, n] = coefficients[term, n] * displacement[i, n]
 
 
 class RateLoads:
@@ -47,28 +52,27 @@ class RateLoads:
         self._modes = loading.modes_with_rigid.astype(np.float32)
         self._coefficients = coefficients.astype(np.float32)
         self._negligible = negligible
-        weights = np.abs(coefficients).max(axis=1)[:, None] * loading.rate_norms
-        self._on_velocity = weights[:3].sum(axis=0)
-        self._on_displacement = weights[3:].sum(axis=0)
+        self._weights = np.abs(coefficients).max(axis=1)[:, None] * loading.rate_norms
 
     def of(self, displacement: Array, velocity: Array) -> Array:
         """Modal pseudo loads (m, nt) of the modal motion (m, nt), [1/s] for the velocity."""
         count = displacement.shape[1]
-        motion = np.hstack([displacement, velocity]).astype(np.float32)
-        fields: Single = self._modes @ motion
-        active = self._active(fields, count)
-        stacked = np.empty((len(self._coefficients), len(active), count), dtype=np.float32)
-        fields = fields[active]
-        _weighted_fields(self._coefficients, fields[:, :count], fields[:, count:], stacked)
-        columns = self._operators[:, :, active].transpose(1, 0, 2)
-        force = columns.reshape(len(columns), -1) @ stacked.reshape(-1, count)
-        return -(self._modes.T @ force).astype(np.float64)
+        moved: Single = self._modes @ displacement.astype(np.float32)
+        moving: Single = self._modes @ velocity.astype(np.float32)
+        terms, coordinates = self._significant(moved, moving)
+        products = np.empty((len(terms), count), dtype=np.float32)
+        _products(self._coefficients, moved, moving, terms, coordinates, products)
+        force: Single = self._operators[terms, :, coordinates].T @ products
+        loads: Single = self._modes.T @ force
+        return -loads.astype(np.float64)
 
-    def _active(self, fields: Single, count: int) -> IntArray:
-        """Coordinates whose loads, bounded by norms, together matter."""
-        slow = np.abs(fields[:, :count]).max(axis=1)
-        fast = np.abs(fields[:, count:]).max(axis=1)
-        share = self._on_displacement * slow + self._on_velocity * fast
-        order = np.argsort(share)
-        dropped = np.searchsorted(np.cumsum(share[order]), self._negligible, side="right")
-        return np.sort(order[dropped:])
+    def _significant(self, displacement: Single, velocity: Single) -> tuple[IntArray, IntArray]:
+        """Terms and coordinates of the products whose bounds together matter."""
+        bounds = self._weights.copy()
+        bounds[:3] *= np.abs(velocity).max(axis=1)
+        bounds[3:] *= np.abs(displacement).max(axis=1)
+        order = np.argsort(bounds, axis=None)
+        added = np.cumsum(bounds.ravel()[order])
+        kept = order[np.searchsorted(added, self._negligible, side="right") :]
+        terms, coordinates = np.unravel_index(np.sort(kept), bounds.shape)
+        return terms, coordinates

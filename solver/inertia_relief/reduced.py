@@ -19,7 +19,7 @@ from solver.arrays import Array
 from solver.inertia_relief.damping import RayleighDamping
 
 #: Changes whenever the stored arrays change their meaning.
-FORMAT = 1
+FORMAT = 2
 
 Single = NDArray[np.float32]
 
@@ -36,7 +36,8 @@ class ReducedModel:
     applied: Array  #: (M, k) unit pin components, then unit air resultants
     inertia: Array  #: (1 + g, M, 12) unit motions, see `Inertia.rigid_load_shapes`
     shell_stress: Single  #: (n_shells, 6, m) rows whose squares sum to von Mises, two faces
-    beam_stress: Single  #: (n_beams, 9, m) eight normal stresses, sqrt(3) times the torsional one
+    beam_stress: Single  #: (n_beams, 6, m) five rows of normal stress, sqrt(3) times the shear
+    beam_points: Single  #: (n_beams, 8, 5) normal stress of the points from the five rows
 
     @property
     def size(self) -> int:

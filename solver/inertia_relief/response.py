@@ -17,9 +17,9 @@ from solver.inertia_relief.modal_recursion import StepCoefficients, modal_respon
 from solver.inertia_relief.rate_loads import RateLoads
 
 #: Largest change by the last sweep, relative to the largest displacement, strain-energy norm.
-SWEEP_TOLERANCE = 1e-5
-#: Share of the tolerance that pseudo loads may leave out; a resonance magnifies some fifty times.
-NEGLIGIBLE = 0.01
+SWEEP_TOLERANCE = 1e-4
+#: Share of the tolerance that the pseudo loads of a sweep may leave out.
+NEGLIGIBLE = 0.5
 MAXIMUM_SWEEPS = 30
 
 

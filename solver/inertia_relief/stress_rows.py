@@ -2,7 +2,8 @@
 
 For a shell face ``sx^2 - sx sy + sy^2 + 3 t^2 = (sx - sy / 2)^2 + (3/4) sy^2 + 3 t^2``; for a beam
 point ``s^2 + 3 t^2``.  Every peak is then the largest Euclidean norm of a few linear rows, which is
-what the bounds of the peak search rest on.
+what the bounds of the peak search rest on.  The eight normal stresses of a beam are combinations of
+five numbers: the axial force, and two bending moments at each end.
 """
 
 from typing import TYPE_CHECKING
@@ -10,22 +11,28 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from solver.arrays import Array
+from solver.errors import ModelError
 from solver.inertia_relief.reduced import Single
 
 if TYPE_CHECKING:
     from solver.fe.stress import StressRecovery
 
 _ROOT_3 = np.sqrt(3.0)
+#: Eigenvalues of the stresses' Gram matrix below this share are rounding.
+_DEPENDENT = 1e-9
 
 
-def reduced_stress_rows(recovery: "StressRecovery", basis: Array) -> tuple[Single, Single]:
+def reduced_stress_rows(recovery: "StressRecovery", basis: Array) -> tuple[Single, Single, Single]:
     """Rows of every element per unit coordinate of ``basis`` (n, m).
 
     Returns
     -------
-    (n_shells, 6, m) array, (n_beams, 9, m) array
-        Shells: three rows of the bottom face, three of the top.  Beams: eight normal stresses,
-        then sqrt(3) times the torsional shear [Pa].
+    (n_shells, 6, m) array
+        Three rows of the bottom face, three of the top [Pa].
+    (n_beams, 6, m) array
+        Five independent rows of normal stress, then sqrt(3) times the torsional shear [Pa].
+    (n_beams, 8, 5) array
+        Normal stress of the eight points from the five rows.
     """
     size = basis.shape[1]
     shells = np.asarray(recovery.shell_operator @ basis).reshape(-1, 2, 3, size)
@@ -33,8 +40,26 @@ def reduced_stress_rows(recovery: "StressRecovery", basis: Array) -> tuple[Singl
     shells[:, :, 1] *= _ROOT_3 / 2
     shells[:, :, 2] *= _ROOT_3
     beams = np.asarray(recovery.beam_operator @ basis).reshape(-1, 9, size)
-    beams[:, 8] *= _ROOT_3
+    points, normal = independent_rows(beams[:, :8])
+    beam_rows = np.concatenate([normal, _ROOT_3 * beams[:, 8:]], axis=1)
     return (
         np.ascontiguousarray(shells.reshape(-1, 6, size), dtype=np.float32),
-        np.ascontiguousarray(beams, dtype=np.float32),
+        np.ascontiguousarray(beam_rows, dtype=np.float32),
+        np.ascontiguousarray(points, dtype=np.float32),
     )
+
+
+def independent_rows(normal: Array) -> tuple[Array, Array]:
+    """Factor normal stresses (n, 8, m) into (n, 8, 5) orthonormal combinations of (n, 5, m).
+
+    Raises
+    ------
+    ModelError
+        A beam's eight stresses are not combinations of five.
+    """
+    gram = normal @ normal.transpose(0, 2, 1)
+    values, vectors = np.linalg.eigh(gram)
+    if np.any(values[:, 2] > _DEPENDENT * values[:, 7]):
+        raise ModelError("normal stresses of a beam's eight points have more than five sources")
+    points = vectors[:, :, 3:]
+    return points, points.transpose(0, 2, 1) @ normal
