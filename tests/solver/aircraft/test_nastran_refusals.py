@@ -83,7 +83,7 @@ def test_a_card_that_is_not_supported_is_named_with_its_line(card):
         ("PSHELL,5,1,.002,1,,1,.5", "field TS/T must be 0.8333"),
         ("PSHELL,5,1,.002,1,,2", "field MID3 must be 1"),
         ("PSHELL,5,1,.002,1,,1,,\n,,,9", "field MID4 = 9"),
-        ("PSHELL,5,1,.002,1,,1,,0.,\n,.1", "field Z1"),
+        ("PSHELL,5,1,.002,1,,1,,0.,\n,x", "field Z1: 'X' is not a real"),
         ("PSHELL,5,1,,1", "field T is blank"),
         ("PSHELL,5,1,-.002,1", "field T = -0.002 must be above zero"),
         ("PSHELL,5,4,.002,4", "property 5 names MAT1 4, which is missing"),
