@@ -144,7 +144,9 @@ def parse_bulk_data(text: str, source: str = "bulk data") -> Deck:
 
 def _parameter(card: Card) -> str:
     name = card.text(0)
-    if name == "WTMASS" and card.real(1, "V1") == 1.0:
+    if name == "WTMASS":
+        if card.real(1, "V1") != 1.0:
+            raise card.error("scales mass and is not supported; give densities and masses in SI")
         return f"WTMASS (line {card.line})"
     if name not in HARMLESS_PARAMETERS:
         raise card.error("this parameter is not known to be harmless")
