@@ -22,6 +22,7 @@ from solver.landing.simulate import simulate_landing
 STANDARD_GRAVITY = 9.80665  #: [m/s2]
 LIMIT_SINK, TAKEOFF_SINK = 3.048, 1.829  #: 10 ft/s and 6 ft/s, 25.473(a) [m/s]
 TOUCHDOWN_SPEED = 55.0  #: over ground; near 1.25 V_L2 of 25.479(a) for a jet of this size [m/s]
+TAXI_LOAD_FACTOR = 2.0  #: of a bump, all wheels; the usual static equivalent, assumed
 #: Strut closure and tyre deflection at which prescribed forces act, near those of the peak [m].
 CLOSURE, TYRE_DEFLECTION = 0.25, 0.03
 
@@ -101,7 +102,8 @@ def design_cases(airframe: Airframe) -> list[AppliedLoads]:
     level = cases[0]
     cases.append(_one_gear(airframe, level))
     vertical = float(_main_vertical(airframe, level))
-    cases += _prescribed(airframe, aircraft["landing"], "landing", vertical)
+    cases += _prescribed(aircraft["landing"], "landing", vertical)
+    cases.append(_taxi(aircraft["take-off"], "take-off"))
     for name, load_factor, loading in (
         ("2.5 g, take-off mass", 2.5, "take-off"),
         ("2.5 g, no fuel", 2.5, "no fuel"),
@@ -154,15 +156,29 @@ def _main_vertical(airframe: Airframe, level: AppliedLoads) -> float:
     return float(max(peaks))
 
 
-def _prescribed(
-    airframe: Airframe, aircraft: LandingAircraft, loading: str, vertical: float
-) -> list[AppliedLoads]:
+def _main_share(aircraft: LandingAircraft) -> float:
+    """Share of the weight at rest on one main gear."""
+    nose, main = (aircraft.gears[k].pivot[0] for k in (0, 1))
+    return float((aircraft.total_centre_of_gravity[0] - nose) / (main - nose)) / 2
+
+
+def _taxi(aircraft: LandingAircraft, loading: str) -> AppliedLoads:
+    """25.491: the worst bump of the runway as a static load factor."""
+    weight = TAXI_LOAD_FACTOR * aircraft.total_mass * STANDARD_GRAVITY
+    share = _main_share(aircraft)
+    pins = [
+        _ground_force(aircraft, gear, np.array([0.0, 0.0, part * weight]))
+        for gear, part in enumerate((1 - 2 * share, share, share))
+    ]
+    amplitudes = np.concatenate([*pins, np.zeros(6)])[None]
+    return AppliedLoads("taxi, 2 g (25.491)", loading, amplitudes)
+
+
+def _prescribed(aircraft: LandingAircraft, loading: str, vertical: float) -> list[AppliedLoads]:
     """Ground conditions given as forces: drag aft, side starboard, vertical up on the tyre [N]."""
     weight = aircraft.total_mass * STANDARD_GRAVITY
-    nose = airframe.definition.gears[0].pivot[0]
-    main = airframe.definition.gears[1].pivot[0]
+    share = _main_share(aircraft)
     centre = aircraft.total_centre_of_gravity
-    share = float((centre[0] - nose) / (main - nose)) / 2  # of one main gear
     drift = 0.75 * vertical
     half = 0.5 * vertical
     braked = 1.2 * weight * share

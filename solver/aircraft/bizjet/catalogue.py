@@ -19,6 +19,8 @@ from solver.fe.model import BeamProperty, Material, ShellProperty
 SIZED = Path(__file__).with_name("sized.toml")
 
 SIDES = ("centre", "port", "starboard")
+#: Least depth squared over area of a section; at 2 its walls would be solid.
+LEAST_HOLLOW = 2.6
 _PER_FAMILY, _PER_SIDE = 10_000, 1_000
 
 
@@ -87,11 +89,13 @@ class Catalogue:
 
 
 def beam_property(identifier: int, family: Family, area: float) -> BeamProperty:
-    """I section of a given area, flanges half as wide as deep, the same wall all round.
+    """I section of a given area: the family's depth, flanges half as wide, one wall all round.
 
-    Geometrically similar at every area: the depth is the family's at the family's gauge.
+    Area grows by thicker walls.  A section that deepened with its area would draw more bending
+    where the structure around it imposes a curvature, and sizing would chase itself; it deepens
+    only where the walls would fill it.
     """
-    depth = family.depth * math.sqrt(area / family.gauge)
+    depth = max(family.depth, math.sqrt(LEAST_HOLLOW * area))
     wall = (depth - math.sqrt(depth**2 - 2 * area)) / 2  # 2 wall (depth - wall) = area
     dimensions = (depth, depth / 2, depth / 2, wall, wall, wall)
     return section_property(

@@ -119,8 +119,8 @@ def _gears(parts: Parts) -> list[str]:
             vertical_n=vertical,
             drag_n=drag,
             side_n=side,
-            source="10 ft/s at maximum landing mass (14 CFR 25.473, 25.479, 25.485), see "
-            "the aircraft's documentation",
+            source="largest of the design cases (14 CFR 25.473 to 25.499), see the aircraft's "
+            "documentation",
         )
     pins = {
         "nose": (parts.nose_pins, gears.NOSE_PINS),

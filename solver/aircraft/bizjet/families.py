@@ -135,7 +135,7 @@ FAMILIES: tuple[Family, ...] = (
             access="assumed: baggage compartment"),
     _family("nose and tail caps", "fuselage", "53", AL2024, 1.5, 1.2, 110, _FRAME),
     _family("bulkhead stiffeners", "fuselage", "53", AL7075, 180, 80, 200, _FRAME, 0.050),
-    _family("wing frames", "fuselage", "53", AL7075, 3.0, 1.4, 190, _FRAME, access=_LINING),
+    _family("wing frames", "fuselage", "53", AL7075, 5.0, 3.0, 190, _FRAME, access=_LINING),
     _family("engine frames", "fuselage", "53", AL7075, 3.0, 1.4, 180, _FRAME,
             access="assumed: tail compartment"),
     _family("fin frames", "fuselage", "53", AL7075, 3.0, 1.4, 180, _FRAME,

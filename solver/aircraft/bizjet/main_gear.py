@@ -1,9 +1,10 @@
 """Main gear attachment: gear beam, ribs and panels aft of the rear spar, and the three pins.
 
 The trunnion turns between a pin on the rear spar and one on the gear beam, both held between two
-ribs; the side brace ends on the rear spar next to the side of body.  Every pin is joined to its
-fitting by an interpolation over the whole lug footprint, so that the footprint's area, not the
-mesh, sets the local stress.
+ribs; the side brace ends on the rear spar next to the side of body.  Every pin is joined by an
+interpolation to the whole footprint of its fitting, so that the footprint's area, not the mesh,
+sets the local stress.  A trunnion housing is held by both ribs over a bay's length on either side:
+drag enters the ribs in their plane and does not bend the spar web between them.
 """
 
 from dataclasses import dataclass
@@ -79,14 +80,20 @@ def build_main_gear(
     y_brace = sum(dim.BRACE_FITTING) / 2
     x_brace = float(dim.wing_station(y_brace, dim.REAR_SPAR))
     z_brace = float(mesh.points(wing.box[0 : brace + 1, -1])[..., 2].mean())
+    sub = divisions.subdivisions
+    ribs_of_box, ribs_of_bay = wing.box[[rib_in, rib_out]], bay[[rib_in, rib_out]]
+    forward = np.hstack([ribs_of_box[:, -1 - sub :], ribs_of_bay[:, : sub + 1]])
+    aft = ribs_of_bay[:, -1 - sub :]
     return [
-        _pin(mesh, f"{side} trunnion forward", (front, y_pin, height),
-             wing.box[rib_in : rib_out + 1, -1]),
-        _pin(mesh, f"{side} trunnion aft", (float(stations), y_pin, height),
-             bay[rib_in : rib_out + 1, -1]),
-        _pin(mesh, f"{side} side brace", (x_brace, y_brace * wing.side, round(z_brace, 4)),
-             wing.box[0 : brace + 1, -1]),
-    ]  # fmt: skip
+        _pin(mesh, f"{side} trunnion forward", (front, y_pin, height), forward),
+        _pin(mesh, f"{side} trunnion aft", (float(stations), y_pin, height), aft),
+        _pin(
+            mesh,
+            f"{side} side brace",
+            (x_brace, y_brace * wing.side, round(z_brace, 4)),
+            wing.box[0 : brace + 1, -1],
+        ),
+    ]
 
 
 def _pin(mesh: Mesh, name: str, point: tuple[float, float, float], lug: IntArray) -> PinNode:

@@ -21,6 +21,10 @@ from solver.fe.structure import build_structure
 EQUIPMENT, FURNISHING = 10_000_001, 20_000_001
 TANK_BLOCKS = {-1: 30_000_001, 1: 40_000_001}
 BAY_BLOCKS = (50_000_001, 60_000_001, 70_000_001)
+#: Remaining error of the spread's moments, relative to the largest lever.
+TIGHT = 1e-11
+#: Below this error Newton's full step is taken; the dual changes by less than its rounding.
+QUADRATIC = 1e-4
 #: Masses below this are not worth a card [kg].
 NEGLIGIBLE = 1e-6
 
@@ -270,17 +274,16 @@ def spread(points: Array, base: Array, mass: float, moments: Array, polar: float
     for _ in range(200):
         share, dual = weights(multiplier)
         gradient = share @ features
-        if np.abs(gradient).max() < 1e-13:
+        if np.abs(gradient).max() < TIGHT:
             return np.asarray(mass * share)
         hessian = (features.T * share) @ features - np.outer(gradient, gradient)
         step = np.linalg.solve(hessian + 1e-14 * np.eye(3), gradient)
         length = 1.0
-        while length > 1e-12 and weights(multiplier - length * step)[1] > dual - 1e-4 * length * (
-            gradient @ step
-        ):
-            length /= 2
-        if length <= 1e-12 and np.abs(gradient).max() < 1e-10:
-            return np.asarray(mass * share)
+        if np.abs(gradient).max() > QUADRATIC:
+            while length > 1e-6 and (
+                weights(multiplier - length * step)[1] > dual - 1e-4 * length * (gradient @ step)
+            ):
+                length /= 2
         multiplier = multiplier - length * step
         if np.abs(multiplier).max() > 1e4:
             break
