@@ -7,6 +7,9 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli.aircraft import aircraft
+from app.cli.demo import EXAMPLE_AIRCRAFT
+from solver.aircraft.definition_reader import load_definition
+from solver.aircraft.nastran import read_bulk_data
 from tests.solver.aircraft.mini import write_mini_aircraft
 
 
@@ -44,3 +47,13 @@ def test_check_names_card_and_line_of_bad_bulk_data(folder, tmp_path):
     result = CliRunner().invoke(aircraft, ["check", str(tmp_path)])
     assert result.exit_code == 2
     assert "line 2: CHEXA 1" in result.stderr.replace("\n", " ")
+
+
+def test_build_writes_the_example_where_it_is_told_and_prints_the_place(tmp_path):
+    target = tmp_path / "example"
+    result = CliRunner().invoke(aircraft, ["build", str(target)])
+    assert result.exit_code == 0
+    assert result.stdout.strip() == str(target)
+    definition = load_definition(target)
+    assert definition.name == EXAMPLE_AIRCRAFT
+    assert read_bulk_data(target / definition.bulk_data).model.node_count > 4000
