@@ -33,7 +33,7 @@ class TouchdownRecord:
     """
 
     aircraft: str  #: name of the aircraft definition
-    contacts: tuple[Contact, ...]
+    contacts: tuple[Contact, ...]  #: those whose state is known, in order
     mass: float | None = None  #: gross mass [kg]
     centre_of_gravity: float | None = None  #: structural x station [m]
     fuel: dict[str, float] = field(default_factory=dict)  #: tank name to fuel mass [kg]
@@ -66,7 +66,7 @@ class HotSpot:
     utilisation: float  #: peak / allowable
     margin: float  #: allowable / peak - 1
     time: float  #: of the peak, from that contact [s]
-    contact: int  #: index of the contact that drove it
+    contact: int  #: which of the record's contacts drove it, from 0
     ata_chapter: str
     inspection: str  #: what to look for, from the aircraft definition
 

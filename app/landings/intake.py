@@ -175,14 +175,15 @@ class _Conversion:
         contacts = []
         for index, given in enumerate(self.record.contacts):
             path = f"contacts[{index}]"
-            self.missing += [
-                f"{path}.{name}" for name in NEEDED_FOR_A_VERDICT if getattr(given, name) is None
-            ]
+            absent = [name for name in NEEDED_FOR_A_VERDICT if getattr(given, name) is None]
+            self.missing += [f"{path}.{name}" for name in absent]
             self._check_recorder(path, given)
             time = self._number(f"{path}.time", given.time)
             if time is None and first is not None and given.t_utc is not None:
                 time = (given.t_utc - first).total_seconds()
-            contacts.append(self._contact(path, given, time or 0.0))
+            contact = self._contact(path, given, time or 0.0)
+            if not absent:  # a zero in place of an unknown speed would be simulated as a greaser
+                contacts.append(contact)
         return contacts
 
     def _check_recorder(self, path: str, given: ContactIn) -> None:
