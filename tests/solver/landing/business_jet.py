@@ -43,7 +43,11 @@ def springy(gear: Gear, **changes: Any) -> Gear:
     spring = SpringBack.from_frequency(
         FORE_AFT, gear.unsprung_mass, gear.strut.extended_length - 0.08
     )
-    return replace(with_pins(gear), spring_back=replace(spring, **changes))
+    return replace(
+        with_pins(gear),
+        spring_back=replace(spring, **changes),
+        tyre=replace(gear.tyre, wheel_transverse_inertia=None),
+    )
 
 
 def business_jet(aerodynamics: Aerodynamics | None = None) -> LandingAircraft:
