@@ -1,5 +1,7 @@
 """Requests whose body is too large are answered, not cut off."""
 
+import contextlib
+
 from starlette.datastructures import Headers
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -9,8 +11,7 @@ from app.landings.field_errors import FieldError
 
 
 class _BodyTooLargeError(Exception):
-    def __init__(self, size: int) -> None:
-        self.size = size
+    """Ends the reading of a body."""
 
 
 class BodyLimit:
@@ -33,31 +34,42 @@ class BodyLimit:
         announced = Headers(scope=scope).get("content-length", "0")
         size = int(announced) if announced.isdecimal() else 0
         if size > self.limit:
-            await self._refuse(size, 0, scope, receive, send)
+            await self._refuse(size, 0, False, scope, receive, send)
             return
-        taken = 0
+        taken, is_complete = 0, False
 
         async def counted() -> Message:
-            nonlocal taken
+            nonlocal taken, is_complete
             message = await receive()
+            is_complete = not message.get("more_body", False)
             taken += len(message.get("body", b""))
             if taken > self.limit:
-                raise _BodyTooLargeError(taken)
+                raise _BodyTooLargeError
             return message
 
-        try:
-            await self.app(scope, counted, send)
-        except _BodyTooLargeError as error:
-            await self._refuse(error.size, taken, scope, receive, send)
+        async def unless_too_large(message: Message) -> None:
+            # Whoever caught the error above may have made an answer of its own out of it.
+            if taken <= self.limit:
+                await send(message)
+
+        with contextlib.suppress(_BodyTooLargeError):
+            await self.app(scope, counted, unless_too_large)
+        if taken > self.limit:
+            await self._refuse(taken, taken, is_complete, scope, receive, send)
 
     async def _refuse(
-        self, size: int, taken: int, scope: Scope, receive: Receive, send: Send
+        self,
+        size: int,
+        taken: int,
+        is_complete: bool,
+        scope: Scope,
+        receive: Receive,
+        send: Send,
     ) -> None:
-        while taken <= self.discard:
+        while not is_complete and taken <= self.discard:
             message = await receive()
             taken += len(message.get("body", b""))
-            if message["type"] != "http.request" or not message.get("more_body", False):
-                break
+            is_complete = not message.get("more_body", False)
         allowed = f"at most {self.limit} bytes"
         refusal = problem(
             413,

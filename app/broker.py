@@ -4,6 +4,7 @@ A message may be lost, doubled or late; the row in the database is the job, so e
 only a delay.  That is why a folder will do as a broker on one machine.
 """
 
+import threading
 from typing import Any
 
 import structlog
@@ -71,17 +72,43 @@ def _transport_options(settings: Settings) -> dict[str, Any]:
 
 
 class Nudger:
-    """Tells the workers that there is work; failing to do so is logged and nothing more."""
+    """Tells the workers that there is work; failing to do so is logged and nothing more.
+
+    One thread sends at a time, and whoever comes meanwhile leaves its nudge to that thread: a
+    broker that is away costs its time-out once, not once for every landing that comes in.
+    """
 
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
         self._celery = Celery("nudger", set_as_current=False)
         self._celery.conf.update(celery_settings(settings))
+        self._guard = threading.Lock()
+        self._wanted = 0
+        self._is_sending = False
 
     def nudge(self, count: int = 1) -> bool:
-        """Send nudges; the answer says whether the broker took them."""
+        """Send nudges; false if the broker did not take them."""
+        with self._guard:
+            self._wanted = min(self._wanted + count, self._settings.nudge_window)
+            if self._is_sending:
+                return True
+            self._is_sending = True
+        while (wanted := self._next()) > 0:
+            if not self._send(wanted):
+                with self._guard:
+                    self._wanted, self._is_sending = 0, False
+                return False
+        return True
+
+    def _next(self) -> int:
+        with self._guard:
+            wanted, self._wanted = self._wanted, 0
+            self._is_sending = wanted > 0
+        return wanted
+
+    def _send(self, count: int) -> bool:
         try:
-            _transport_options(self._settings)  # somebody may have cleared the message folder away
+            _transport_options(self._settings)  # somebody may have cleared the folder away
             for _ in range(count):
                 self._celery.send_task(
                     DRAIN_TASK, queue=QUEUE, expires=NUDGE_LIFETIME, retry=False, ignore_result=True

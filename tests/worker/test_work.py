@@ -1,0 +1,144 @@
+"""What a worker makes of solvers that fail."""
+
+from collections.abc import Callable, Iterator
+
+import pytest
+from sqlalchemy import select
+
+import worker.work
+from app.artefacts.models import Artefact
+from app.assessments import queue, recording
+from app.assessments.models import VerdictRow
+from app.broker import Nudger
+from app.db import reading, writing
+from solver.assess import AssessmentModel
+from solver.assessment import Assessment, TouchdownRecord
+from solver.errors import EquilibriumError, RecordError, SimulationDivergedError
+from tests.conftest import Service
+from tests.records import record
+from worker.solve import solve
+from worker.work import work_off
+
+Solver = Callable[[AssessmentModel, TouchdownRecord], Assessment]
+
+
+@pytest.fixture
+def failing(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Exception], None]]:
+    """Make the solver raise."""
+
+    def arrange(error: Exception) -> None:
+        def broken(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
+            raise error
+
+        monkeypatch.setattr(worker.work, "solve", broken)
+
+    return arrange
+
+
+def outcome(service: Service) -> dict[str, object]:
+    return service.assessed(record())
+
+
+@pytest.mark.parametrize(
+    "error", [RecordError("roll is 50 deg, range 0 to 40"), SimulationDivergedError("energy 3 %")]
+)
+def test_what_the_record_cannot_carry_is_undetermined(
+    service: Service, failing: Callable[[Exception], None], error: Exception
+) -> None:
+    failing(error)
+    answer = outcome(service)
+    assert answer["state"] == "assessed"
+    assert answer["result"]["verdict"] == "UNDETERMINED"
+    assert answer["result"]["reasons"][0]["text"] == str(error)
+    assert answer["attempts"] == 1
+
+
+def test_a_defect_of_the_model_fails_at_once(
+    service: Service, failing: Callable[[Exception], None]
+) -> None:
+    failing(EquilibriumError("residual 1e-3"))
+    answer = outcome(service)
+    assert (answer["state"], answer["attempts"]) == ("failed", 1)
+    assert answer["last_error"] == "EquilibriumError: residual 1e-3"
+    assert answer["result"] is None
+
+
+def test_a_defect_of_the_program_is_tried_again_and_then_dead(
+    service: Service, failing: Callable[[Exception], None]
+) -> None:
+    failing(ZeroDivisionError("division by zero"))
+    answer = outcome(service)
+    assert (answer["state"], answer["attempts"]) == ("dead", service.settings.max_attempts)
+    assert answer["last_error"] == "ZeroDivisionError: division by zero"
+
+
+def test_an_aircraft_that_was_taken_away_fails_with_its_name(service: Service) -> None:
+    location = service.post(record()).headers["location"]
+    with writing(service.engine) as session:
+        claimed = queue.claim(session, worker="w", lanes=(0,), lease=60.0, max_attempts=5)
+        assert claimed is not None
+        stored = queue.inputs_of(session, claimed)
+        stored["aircraft"] = "gone"
+        queue.give_up(session, claimed, "", 5)
+        landing = session.get(worker.work._all_tables.Landing, claimed.landing_id)
+        landing.inputs = {**stored}
+    service.work()
+    answer = service.get(location).json()
+    assert answer["state"] == "failed"
+    assert "'gone' is not installed here; installed: mini" in answer["last_error"]
+
+
+def test_a_worker_that_lost_its_claim_leaves_the_database_untouched(service: Service) -> None:
+    location = service.post(record()).headers["location"]
+    with writing(service.engine) as session:
+        late = queue.claim(session, worker="w", lanes=(0,), lease=-1.0, max_attempts=5)
+    assert late is not None
+    with reading(service.engine) as session:
+        stored = queue.inputs_of(session, late)
+    service.work()
+    before = service.get(location).json()
+    model = service.models.get("mini")
+    answer = solve(model, worker.work.inputs.from_json(stored))
+    with writing(service.engine) as session:
+        assert not recording.record_assessment(session, late, stored, answer, keeps_arrays_from=0.0)
+    assert service.get(location).json() == before
+    with reading(service.engine) as session:
+        assert len(session.scalars(select(VerdictRow)).all()) == 1
+
+
+def test_work_passes_the_nudge_on_when_its_time_is_used_up(service: Service) -> None:
+    for sink_rate in (3.0, 4.0, 5.0):
+        service.post(record(sink_rate))
+    settings = service.settings.model_copy(update={"drain_budget": 0.0})
+    sent = []
+
+    class Counting(Nudger):
+        def nudge(self, count: int = 1) -> bool:
+            sent.append(count)
+            return True
+
+    assert work_off(service.engine, settings, service.models, Counting(settings)) == 1
+    assert sent == [1]
+
+
+def test_arrays_are_kept_for_landings_near_a_limit_only(service: Service) -> None:
+    settings = service.settings.model_copy(update={"keep_arrays_above": 0.5})
+    places = [service.post(record(rate)).headers["location"] for rate in (2.0, 20.0)]
+    nudger = Nudger(settings)
+    while work_off(service.engine, settings, service.models, nudger):
+        pass
+    soft, hard = (service.get(place).json() for place in places)
+    assert soft["result"]["worst_utilisation"] < 0.5 < hard["result"]["worst_utilisation"]
+    with reading(service.engine) as session:
+        kept = set(session.scalars(select(Artefact.assessment_id)))
+    assert kept == {hard["id"]}
+    response = service.get(soft["links"]["peak_field"])
+    assert response.status_code == 404
+    assert response.json()["type"] == "urn:hardlanding:problem:not-kept"
+
+
+def test_the_default_keeps_everything_on_one_machine_and_what_matters_in_a_fleet(
+    service: Service,
+) -> None:
+    settings = service.settings.model_copy(update={"keep_arrays_above": None})
+    assert settings.keeps_arrays_from == (0.0 if settings.database_url is None else 0.8)
