@@ -12,6 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.aircraft.airframe import Airframe
+from solver.aircraft.bizjet import dimensions as dim
+from solver.aircraft.bizjet.aerodynamics import (
+    FIN_AREA,
+    FIN_CENTRE,
+    FIN_HEIGHT,
+    TAIL_AREA,
+    TAIL_CENTRE,
+    fin_slope,
+)
 from solver.arrays import Array, IntArray
 from solver.gear.pins import pin_load_matrix
 from solver.inertia_relief.loads import LandingLoads, landing_loads
@@ -21,8 +30,15 @@ from solver.landing.simulate import simulate_landing
 
 STANDARD_GRAVITY = 9.80665  #: [m/s2]
 LIMIT_SINK, TAKEOFF_SINK = 3.048, 1.829  #: 10 ft/s and 6 ft/s, 25.473(a) [m/s]
+#: Own criterion for landings on one wheel first, where a T-tail answers the roll: 8 ft/s [m/s].
+ROLLED_SINK = 2.438
 TOUCHDOWN_SPEED = 55.0  #: over ground; near 1.25 V_L2 of 25.479(a) for a jet of this size [m/s]
 TAXI_LOAD_FACTOR = 2.0  #: of a bump, all wheels; the usual static equivalent, assumed
+AIR_DENSITY = 1.225  #: [kg/m3]
+#: Lateral gust at cruising speed: gust, equivalent air speed [m/s], alleviation; assumed.
+GUST, CRUISING_SPEED, ALLEVIATION = 15.2, 160.0, 0.8
+#: Pitching manoeuvre at manoeuvring speed: change of tail lift coefficient, speed [m/s]; assumed.
+TAIL_LIFT, MANOEUVRING_SPEED = 0.35, 100.0
 #: Strut closure and tyre deflection at which prescribed forces act, near those of the peak [m].
 CLOSURE, TYRE_DEFLECTION = 0.25, 0.03
 
@@ -66,25 +82,37 @@ class AppliedLoads:
     landing: LandingLoads | None = None
 
 
-def _level(
-    name: str, loading: str, sink: float, pitch: float, lift: LiftModel = LiftModel.HELD
+def _landing(
+    name: str,
+    loading: str,
+    sink: float,
+    pitch: float,
+    lift: LiftModel = LiftModel.HELD,
+    roll: float = 0.0,
 ) -> LandingCase:
+    """Landing with pitch and roll in degrees."""
     contact = Contact(
-        sink_rate=sink, ground_speed=TOUCHDOWN_SPEED, pitch=math.radians(pitch), lift=Lift(lift)
+        sink_rate=sink,
+        ground_speed=TOUCHDOWN_SPEED,
+        pitch=math.radians(pitch),
+        roll=math.radians(roll),
+        lift=Lift(lift),
     )
     return LandingCase(name, loading, contact)
 
 
+DECAYS = LiftModel.DECAYING
 LANDINGS = (
-    _level("two wheels, 10 ft/s", "landing", LIMIT_SINK, 1.0),
-    _level("two wheels, 10 ft/s, lift decays", "landing", LIMIT_SINK, 1.0, LiftModel.DECAYING),
-    _level("two wheels, 10 ft/s, no payload", "landing, no payload", LIMIT_SINK, 1.0),
-    _level("three wheels, 10 ft/s", "landing", LIMIT_SINK, 0.0, LiftModel.DECAYING),
-    _level("tail down 3 degrees, 10 ft/s", "landing", LIMIT_SINK, 3.0, LiftModel.DECAYING),
-    _level("tail down 8 degrees, 10 ft/s", "landing", LIMIT_SINK, 8.0, LiftModel.DECAYING),
-    _level("two wheels, take-off mass, 6 ft/s", "take-off", TAKEOFF_SINK, 1.0, LiftModel.DECAYING),
-    _level("three wheels, take-off mass, 6 ft/s", "take-off", TAKEOFF_SINK, 0.0),
-)  # fmt: skip
+    _landing("two wheels, 10 ft/s", "landing", LIMIT_SINK, 1.0),
+    _landing("two wheels, 10 ft/s, lift decays", "landing", LIMIT_SINK, 1.0, DECAYS),
+    _landing("two wheels, 10 ft/s, no payload", "landing, no payload", LIMIT_SINK, 1.0),
+    _landing("three wheels, 10 ft/s", "landing", LIMIT_SINK, 0.0, DECAYS),
+    _landing("tail down 3 degrees, 10 ft/s", "landing", LIMIT_SINK, 3.0, DECAYS),
+    _landing("tail down 8 degrees, 10 ft/s", "landing", LIMIT_SINK, 8.0, DECAYS),
+    _landing("one wheel first, 3 degrees, 8 ft/s", "landing", ROLLED_SINK, 2.0, DECAYS, roll=3.0),
+    _landing("two wheels, take-off mass, 6 ft/s", "take-off", TAKEOFF_SINK, 1.0, DECAYS),
+    _landing("three wheels, take-off mass, 6 ft/s", "take-off", TAKEOFF_SINK, 0.0),
+)
 
 
 def fill_factors(airframe: Airframe, loading: DesignLoading) -> Array:
@@ -110,6 +138,7 @@ def design_cases(airframe: Airframe) -> list[AppliedLoads]:
         ("-1 g, take-off mass", -1.0, "take-off"),
     ):
         cases.append(_manoeuvre(name, aircraft[loading], loading, load_factor))
+    cases += _empennage(aircraft["landing"], "landing")
     return cases
 
 
@@ -231,3 +260,22 @@ def _manoeuvre(
         pins.append(pin_load_matrix(gear.pins, gear.pivot) @ wrench)
     lift = _vertical_air_load(aircraft.total_mass * acceleration, aircraft.total_centre_of_gravity)
     return AppliedLoads(name, loading, np.concatenate([*pins, lift])[None])
+
+
+def _empennage(aircraft: LandingAircraft, loading: str) -> list[AppliedLoads]:
+    """Load fin and tailplane in 1 g flight: lateral gust, pitching manoeuvre."""
+    steady = _manoeuvre("1 g", aircraft, loading, 1.0).amplitudes[0]
+    gust = 0.5 * AIR_DENSITY * CRUISING_SPEED * GUST * ALLEVIATION * fin_slope() * FIN_AREA
+    pull = 0.5 * AIR_DENSITY * MANOEUVRING_SPEED**2 * TAIL_LIFT * TAIL_AREA
+    fin = np.array([FIN_CENTRE[0], 0.0, dim.FIN_ROOT_HEIGHT + FIN_CENTRE[1] * FIN_HEIGHT])
+    tail = np.array([TAIL_CENTRE[0], 0.0, dim.FIN_TIP_HEIGHT])
+    cases = []
+    for name, place, force in (
+        ("lateral gust (25.341)", fin, np.array([0.0, gust, 0.0])),
+        ("pitching manoeuvre, tail up (25.331)", tail, np.array([0.0, 0.0, pull])),
+        ("pitching manoeuvre, tail down (25.331)", tail, np.array([0.0, 0.0, -pull])),
+    ):
+        amplitudes = steady.copy()
+        amplitudes[-6:] += np.concatenate([force, np.cross(place, force)])
+        cases.append(AppliedLoads(name, loading, amplitudes[None]))
+    return cases

@@ -19,8 +19,8 @@ Value = str | int | float | Sequence["Value"]
 
 #: Utilisations at which the verdict rises; from the sanity ladder in docs/example-aircraft.md.
 VERDICT: dict[str, str | float] = {
-    "firm_utilisation": 0.70,
-    "inspect_utilisation": 0.92,
+    "firm_utilisation": 0.53,
+    "inspect_utilisation": 0.85,
     "overweight_factor": 0.95,
     "roll_limit_deg": 6.0,
     "nose_first": "INSPECT",

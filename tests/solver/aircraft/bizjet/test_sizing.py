@@ -104,6 +104,24 @@ def test_cases_carry_what_their_rules_say(airframe: Airframe, cases: list[Applie
     assert push == pytest.approx(-pull / 2.5)
 
 
+def test_empennage_cases_add_one_tail_load_to_level_flight(
+    airframe: Airframe, cases: list[AppliedLoads]
+) -> None:
+    by_name = {case.name: case for case in cases}
+    up, down = (
+        by_name[f"pitching manoeuvre, tail {way} (25.331)"].amplitudes[0] for way in ("up", "down")
+    )
+    level = (up + down) / 2
+    assert level[-4] == pytest.approx(12_292.0 * 9.80665, rel=1e-6)
+    # A vertical force at station x has the moment -x F about the origin.
+    force, moment = (up - level)[-4], (up - level)[-2]
+    assert -moment / force == pytest.approx(18.0, abs=0.5)
+    gust = (by_name["lateral gust (25.341)"].amplitudes[0] - level)[-6:]
+    assert 5e3 < gust[1] < 40e3
+    assert gust[5] / gust[1] == pytest.approx(16.30, abs=0.01)
+    assert -gust[3] / gust[1] == pytest.approx(4.217, abs=0.01)
+
+
 def test_one_gear_case_keeps_one_main_gear_only(
     airframe: Airframe, cases: list[AppliedLoads]
 ) -> None:
