@@ -6,7 +6,9 @@ import time
 from typing import Any
 
 import structlog
-from celery.signals import setup_logging, worker_init, worker_process_init
+from billiard.pool import RUN
+from billiard.pool import Pool as BlockingPool
+from celery.signals import setup_logging, worker_init, worker_process_init, worker_ready
 
 from app.config import get_settings
 from app.db import get_engine
@@ -36,6 +38,27 @@ def begin_child(**_: Any) -> None:
     if get_engine.cache_info().currsize:
         get_engine().dispose(close=False)
     threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
+
+
+@worker_ready.connect
+def watch_pool(sender: Any, **_: Any) -> None:
+    """On a broker without an event loop the children take tasks from one queue under one lock.
+
+    Whoever is killed while it holds that lock takes it to the grave, and no other child would ever
+    get a task again.  Nobody can tell from outside, so the worker ends and is started anew; what it
+    was at is claimed again when the leases are over.  (With an event loop each child has a pipe of
+    its own, and the pool replaces it.)
+    """
+    pool = sender.pool._pool
+    if type(pool) is not BlockingPool:  # the pool with an event loop is a subclass
+        return
+
+    def end_if_killed(child: Any) -> None:
+        if pool._state == RUN and child.exitcode is not None and child.exitcode < 0:
+            log.error("worker.child_killed", pid=child.pid, signal=-child.exitcode)
+            os._exit(1)
+
+    pool.on_process_down = end_if_killed
 
 
 def _end_with_parent(parent: int) -> None:

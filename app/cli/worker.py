@@ -6,13 +6,14 @@ from typing import Annotated
 
 import typer
 
+from app.cli.supervisor import Program, Supervisor
 from app.config import LANES, get_settings
 
 
-def worker_command(concurrency: int) -> list[str]:
-    """The worker as a program of its own, the same under the supervisor and alone."""
+def worker_command(concurrency: int, application: str = "worker.celery") -> list[str]:
+    """The worker as a program of its own."""
     return [
-        sys.executable, "-m", "celery", "--app", "worker.celery", "--quiet", "worker",
+        sys.executable, "-m", "celery", "--app", application, "--quiet", "worker",
         "--pool", "prefork", "--concurrency", str(concurrency), "--loglevel", "INFO",
         # Workers have nothing to say to each other: the table tells all.
         "--without-gossip", "--without-mingle", "--without-heartbeat",
@@ -30,4 +31,8 @@ def worker(
         os.environ["HL_WORKER_LANES"] = lanes
     settings = get_settings()
     command = worker_command(concurrency or settings.worker_concurrency)
-    os.execv(command[0], command)  # noqa: S606 - becomes the worker, so that signals reach it
+    # Under a supervisor, as a pool that has lost a process may have to be made anew.
+    supervisor = Supervisor(
+        [Program("worker", command)], say=lambda line: typer.echo(line, err=True)
+    )
+    supervisor.run()

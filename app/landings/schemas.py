@@ -196,7 +196,7 @@ class TouchdownRecordIn(Strict):
                 {
                     "schema": "touchdown-record/1",
                     "record_id": "2026-03-01-T0142-1",
-                    "aircraft": {"model_id": "example-bizjet", "tail_token": "T-0142"},
+                    "aircraft": {"model_id": "ebj-19", "tail_token": "T-0142"},
                     "mass": {
                         "gross_weight": {"value": 25500, "unit": "lb", "sd": 250},
                         "cg": {"value": 24.0, "unit": "%MAC", "sd": 2},

@@ -1,7 +1,7 @@
-"""A worker that some landings kill: the worker's application with a trapped solver.
+"""A worker that some landings kill: the service's own, with a trapped solver.
 
-A landing with a drift of exactly 33 degrees kills the process that solves it; one with exactly 34
-degrees is never done.
+``python -m tests.chaos.saboteur`` runs it under the supervisor.  A landing with a drift of exactly
+33 degrees kills the process that solves it; one with exactly 34 degrees is never done.
 """
 
 import math
@@ -10,6 +10,8 @@ import signal
 import time
 
 import worker.work
+from app.cli.supervisor import Program, Supervisor
+from app.cli.worker import worker_command
 from solver.assess import AssessmentModel
 from solver.assessment import Assessment, TouchdownRecord
 from worker.celery import app
@@ -30,4 +32,8 @@ def trapped(model: AssessmentModel, record: TouchdownRecord) -> Assessment:
     return solve(model, record)
 
 
-worker.work.solve = trapped
+if __name__ == "__main__":
+    command = worker_command(2, application="tests.chaos.saboteur")
+    Supervisor([Program("worker", command)], say=print).run()
+else:
+    worker.work.solve = trapped

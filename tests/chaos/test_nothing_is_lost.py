@@ -1,7 +1,6 @@
 """Landings survive whatever happens to workers and broker: none lost, none doubled."""
 
-import os
-import signal
+import sys
 from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -22,7 +21,7 @@ from tests.chaos.saboteur import KILLER, SLEEPER
 from tests.conftest import Stack
 from tests.records import contact, record
 from tests.servers import free_port, wait_until
-from tests.worker.programs import Programs, children, programs
+from tests.worker.programs import Programs, children, descendants, kill_at_once, programs
 
 pytestmark = pytest.mark.chaos
 
@@ -88,7 +87,7 @@ def wipe_broker(stack: Stack) -> None:
 def test_killed_workers_and_a_wiped_broker_lose_and_double_nothing(
     running: Programs, stack: Stack, engine: Engine, key: dict[str, str]
 ) -> None:
-    worker = running.start_worker(concurrency=2)
+    supervisor = running.start_worker(concurrency=2)
     # Ten different landings twenty times over: the answers must not depend on the chaos.
     records = [record(2.0 + n % 10, record_id=f"chaos-{n}") for n in range(LANDINGS)]
     places = post_all(running.url, key, records)
@@ -96,15 +95,16 @@ def test_killed_workers_and_a_wiped_broker_lose_and_double_nothing(
 
     wait_until(lambda: count(engine, "assessed") >= 20, "the first landings", PATIENCE)
     wait_until(lambda: count(engine, "running") >= 1, "a landing in mid-solve", PATIENCE)
-    running.kill(worker)
+    for member in descendants(supervisor.pid):
+        kill_at_once(member)
     wipe_broker(stack)
     in_mid_solve = count(engine, "running")
     assert in_mid_solve >= 1
 
-    worker = running.start_worker(concurrency=2)
     before = count(engine, "assessed")
     wait_until(lambda: count(engine, "assessed") >= before + 20, "a second start", PATIENCE)
-    os.kill(children(worker)[0], signal.SIGKILL)
+    (worker,) = children(supervisor.pid)
+    kill_at_once(children(worker)[0])
     wipe_broker(stack)
 
     wait_until(lambda: count(engine, *PENDING) == 0, "the end of the queue", PATIENCE)
@@ -154,7 +154,7 @@ def test_a_landing_that_kills_its_workers_is_buried_and_the_others_go_on(
 
     with programs(settings, tmp_path) as running:
         running.start_api()
-        running.start_worker(concurrency=2, application="tests.chaos.saboteur")
+        running.start([sys.executable, "-m", "tests.chaos.saboteur"])
         records = [drifting(KILLER), drifting(SLEEPER)]
         records += [record(2.0 + n, record_id=f"good-{n}") for n in range(4)]
         killer, sleeper, *good = post_all(running.url, key, records)

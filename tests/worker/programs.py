@@ -8,12 +8,10 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import httpx2
 
 from app.cli.serve import api_command
-from app.cli.worker import worker_command
 from app.config import Settings
 from tests.servers import wait_until
 
@@ -56,13 +54,8 @@ class Programs:
         wait_until(lambda: httpx2.get(f"{self.url}/readyz").status_code == 200, "the API")
         return process
 
-    def start_worker(
-        self, concurrency: int = 2, application: str | None = None
-    ) -> "subprocess.Popen[bytes]":
-        command = worker_command(concurrency)
-        if application is not None:
-            command[command.index("--app") + 1] = application
-        return self.start(command)
+    def start_worker(self, concurrency: int = 2) -> "subprocess.Popen[bytes]":
+        return self.start_cli("worker", "--concurrency", str(concurrency))
 
     def start_cli(self, *arguments: str) -> "subprocess.Popen[bytes]":
         return self.start([sys.executable, "-m", "app.cli.main", *arguments])
@@ -72,9 +65,9 @@ class Programs:
         return f"http://127.0.0.1:{self.settings.port}"
 
     def kill(self, process: "subprocess.Popen[bytes]") -> None:
-        """kill -9 of a program with all its children."""
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
+        """kill -9 of a program and of all that came from it."""
+        for pid in (process.pid, *descendants(process.pid)):
+            kill_at_once(pid)
         process.wait()
 
 
@@ -91,7 +84,27 @@ def programs(settings: Settings, folder: Path) -> Iterator[Programs]:
             made.kill(process)
 
 
-def children(process: "subprocess.Popen[bytes]") -> list[int]:
-    """Process ids of a program's direct children."""
-    listed: Any = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text()
-    return [int(pid) for pid in listed.split()]
+def kill_at_once(pid: int) -> None:
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(pid, signal.SIGKILL)
+
+
+def children(pid: int) -> list[int]:
+    """Process ids of a process's direct children, whichever of its threads made them."""
+    found: list[int] = []
+    with contextlib.suppress(OSError):
+        for listed in Path(f"/proc/{pid}/task").glob("*/children"):
+            found += [int(child) for child in listed.read_text().split()]
+    return found
+
+
+def descendants(pid: int) -> list[int]:
+    """Children, their children, and so on."""
+    return [member for child in children(pid) for member in (child, *descendants(child))]
+
+
+def is_alive(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
