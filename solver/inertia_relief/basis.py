@@ -2,9 +2,8 @@
 
 Modes carry the slow global motion.  What they miss is the local stress where loads enter, at the
 gear fittings above all, so every load shape also gives its static response by inertia relief and
-the next terms of its expansion in frequency (block Krylov vectors).  All candidates are weighed by
-strain energy, relative to what their own load stores, and only what the others do not already
-represent is kept.
+the next terms of its expansion in frequency (block Krylov vectors).  Only what the others do not
+already represent is kept.
 
 Sources: Craig, "Coupling of substructures for dynamic analyses", 2000 (residual-attachment modes);
 Bai, "Krylov subspace techniques for reduced-order modeling", 2002 (moment matching).
@@ -16,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from solver.arrays import Array
+from solver.arrays import Array, BoolArray, IntArray
 from solver.errors import ModelError
 from solver.fe.inertia import combine
 from solver.inertia_relief.factor import factorise
@@ -40,12 +39,13 @@ _SHIFT_FREQUENCY = 0.5
 class BasisSettings:
     """What goes into a reduced basis; part of the key under which a model is cached."""
 
-    modes: int = 100  #: elastic modes of each mass state
+    modes: int = 80  #: elastic modes of each mass state
     fills: tuple[float, ...] = (0.0, 0.5, 1.0)  #: mass states, all groups filled alike
-    residual_order: int = 2  #: vectors of each load: 1 static response, 2 and more Krylov
+    residual_order: int = 3  #: vectors of each load: 1 static response, 2 and more Krylov
     cutoff_frequency: float = 100.0  #: where the terms of the expansion are compared [Hz]
     mode_tolerance: float = 1e-2  #: share of a further mass state's mode that may be dropped
-    tolerance: float = 1e-3  #: share of a load's own response that may be dropped
+    static_tolerance: float = 1e-3  #: share of a load's own static response that may be dropped
+    krylov_tolerance: float = 3e-4  #: the same of later terms, of the strongest load at its place
 
 
 def mass_state(base: "Inertia", groups: "tuple[Inertia, ...]", fill: float) -> "Inertia":
@@ -111,7 +111,8 @@ def _without(stiffness: Any, basis: Array, vectors: Array) -> Array:
 
 def energy_norms(stiffness: Any, vectors: Array) -> Array:
     """Square root of twice the strain energy of each vector (n, k)."""
-    return np.sqrt(np.maximum(np.einsum("ij,ij->j", vectors, stiffness @ vectors), 0.0))
+    norms: Array = np.sqrt(np.maximum(np.einsum("ij,ij->j", vectors, stiffness @ vectors), 0.0))
+    return norms
 
 
 def build_basis(
@@ -126,8 +127,10 @@ def build_basis(
 
     The response to a load of circular frequency w is x1 + w^2 x2 + w^4 x3 + ..., with x1 its
     inertia-relief solution and K x(j+1) = M x(j).  Modes come first; of every term only what the
-    basis lacks so far goes on to the next one.  Each term is taken at the cut-off frequency and
-    divided by the strain-energy norm of x1, so that the tolerance means a share of the stress.
+    basis lacked before it goes on to the next one.  Every x1 counts by the share of its own strain
+    energy that is missing.  Later terms are taken at the cut-off frequency and under the loads of a
+    hard landing (`_amplitudes`), and compared with the strongest static response at the same place:
+    a pin, the air loads, the inertia of the structure or of a mass group.
 
     Parameters
     ----------
@@ -149,25 +152,48 @@ def build_basis(
 
     origin = middle.centre_of_gravity
     inertial = [part.rigid_load_shapes(origin) for part in (base, *groups)]
+    loads = np.hstack([applied, *inertial])
+    amplitudes, places = _amplitudes(applied.shape[1] // 6, len(inertial), middle.total_mass)
+    acting = _acts(middle, loads)
     relief = inertia_relief(middle)
-    term = relief.displacement(_acting(middle, np.hstack([applied, *inertial])))
-    scale = energy_norms(stiffness, term)
+    term = relief.displacement(loads[:, acting] * amplitudes[acting])
+    norms, places = energy_norms(stiffness, term), places[acting]
+    strongest = np.array([norms[places == place].max() for place in places])
     for order in range(settings.residual_order):
         progress("residual vectors", order / settings.residual_order)
         if order > 0:
             factor = (2 * np.pi * settings.cutoff_frequency) ** 2
             term = relief.displacement(factor * (middle.mass @ term))
         term = _without(stiffness, basis, term)
-        basis = extended(stiffness, basis, term / scale, settings.tolerance)
+        if order == 0:
+            basis = extended(stiffness, basis, term / norms, settings.static_tolerance)
+        else:
+            basis = extended(stiffness, basis, term / strongest, settings.krylov_tolerance)
     progress("residual vectors", 1.0)
     # as modes of the middle state, slow ones last: any loading's motion is then concentrated
     turn = np.linalg.eigh(basis.T @ (middle.mass @ middle.mean_axis(basis)))[1]
-    return basis @ turn
+    turned: Array = basis @ turn
+    return turned
 
 
-def _acting(body: FreeBody, loads: Array) -> Array:
-    """Pick the loads that deform the body: those whose balanced part is more than rounding."""
+def _amplitudes(wrenches: int, inertias: int, mass: float) -> tuple[Array, IntArray]:
+    """Size of every load in a hard landing, and the number of the place where it acts.
+
+    Pins take a quarter of the weight and its moment at 50 mm, the air loads (the last wrench) the
+    weight and its moment at 1 m, the inertia 2 g, 5 rad/s2 and 0.3 rad2/s2.
+    """
+    weight = mass * 9.80665
+    pin = weight / 4 * np.array([1.0, 1.0, 1.0, 0.05, 0.05, 0.05])
+    air = weight * np.array([0.3, 0.3, 1.0, 1.0, 1.0, 1.0])
+    inertial = np.array([20.0] * 3 + [5.0] * 3 + [0.3] * 6)
+    sizes = [*[pin] * (wrenches - 1), air, *[inertial] * inertias]
+    places = np.repeat(np.arange(len(sizes)), [len(part) for part in sizes])
+    return np.concatenate(sizes), places
+
+
+def _acts(body: FreeBody, loads: Array) -> BoolArray:
+    """Mark the loads that deform the body: those whose balanced part is more than rounding."""
     norms = np.linalg.norm(loads, axis=0)
     balanced = np.linalg.norm(body.self_equilibrated(loads), axis=0)
-    acting: Array = loads[:, balanced > _NO_LOAD * np.where(norms > 0.0, norms, np.inf)]
+    acting: BoolArray = balanced > _NO_LOAD * np.where(norms > 0.0, norms, np.inf)
     return acting

@@ -38,14 +38,15 @@ def project(
     parts = (base, *groups)
     origin = mass_state(base, groups, 0.5).rigid_body_properties().centre_of_gravity
     full = np.hstack([structure.rigid_modes(origin), basis])
-    masses, operators, inertial = [], [], []
+    masses, operators, norms, inertial = [], [], [], []
     for index, part in enumerate(parts):
         progress("projection", index / (len(parts) + 1))
         mass, terms = projected_inertia(part, full)
         masses.append(mass)
-        operators.append(terms.astype(np.float32))
+        operators.append(np.ascontiguousarray(terms.transpose(0, 2, 1), dtype=np.float32))
+        norms.append(np.linalg.norm(terms[:, 6:], axis=1))
         inertial.append(full.T @ part.rigid_load_shapes(origin))
-    shell_stress, beam_stress, beam_points = reduced_stress_rows(recovery, basis)
+    stress = reduced_stress_rows(recovery, basis)
     progress("projection", 1.0)
     return ReducedModel(
         key=key,
@@ -53,11 +54,14 @@ def project(
         origin=origin,
         mass=np.stack(masses),
         rate_operators=np.stack(operators),
+        rate_norms=np.stack(norms),
         applied=full.T @ applied,
         inertia=np.stack(inertial),
-        shell_stress=shell_stress,
-        beam_stress=beam_stress,
-        beam_points=beam_points,
+        shell_stress=stress.shells,
+        beam_stress=stress.beams,
+        beam_points=stress.points,
+        shell_squares=stress.shell_squares(),
+        beam_squares=stress.beam_squares(),
     )
 
 

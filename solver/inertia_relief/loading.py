@@ -8,7 +8,7 @@ from solver.arrays import Array
 from solver.errors import ModelError
 from solver.frames import skew
 from solver.inertia_relief.modal_recursion import StepCoefficients, step_coefficients
-from solver.inertia_relief.reduced import ReducedModel, Single
+from solver.inertia_relief.reduced import ReducedModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,9 +17,9 @@ class ReducedLoading:
 
     model: ReducedModel
     circular_frequency: Array  #: (m,) descending [rad/s]
+    weights: Array  #: (1 + g,) one for the base, then the fill factors
     modes: Array  #: (m, m) orthogonal, columns are modes in the model's coordinates
     modes_with_rigid: Array  #: (6 + m, m) the same, made mean-axis for this loading
-    rate_operators: Single  #: (12, 6 + m, 6 + m)
     rate_norms: Array  #: (12, 6 + m) modal loads of unit coordinates are at most this
     inertia: Array  #: (6 + m, 12)
     centre_of_gravity: Array  #: (3,) [m]
@@ -65,14 +65,14 @@ def assemble(model: ReducedModel, factors: Array) -> ReducedLoading:
     transfer = np.eye(6)
     transfer[3:, :3] = -skew(centre)
     central = transfer @ rigid @ transfer.T
-    operators = np.tensordot(weights.astype(np.float32), model.rate_operators, axes=1)
     return ReducedLoading(
         model=model,
         circular_frequency=1.0 / np.sqrt(squared_period),
         modes=modes,
         modes_with_rigid=np.vstack([follow @ modes, modes]),
-        rate_operators=operators,
-        rate_norms=_column_norms(operators, follow),
+        weights=weights,
+        rate_norms=np.tensordot(weights, model.rate_norms, axes=1)
+        + np.tensordot(weights, _through_rigid(model, follow), axes=1),
         inertia=np.tensordot(weights, model.inertia, axes=1),
         centre_of_gravity=model.origin + centre,
         mass=mass,
@@ -81,15 +81,11 @@ def assemble(model: ReducedModel, factors: Array) -> ReducedLoading:
     )
 
 
-def _column_norms(operators: Single, follow: Array) -> Array:
-    """Bounds (12, 6 + m) of the modal loads that unit coordinates cause through each operator.
+def _through_rigid(model: ReducedModel, follow: Array) -> Array:
+    """Bounds (1 + g, 12, 6 + m) of elastic loads that come through the rigid modes.
 
     Loads on the rigid modes reach the elastic ones only through the little that these follow.
     """
-    elastic = operators[:, 6:]
-    squares = np.einsum("cij,cij->cj", elastic, elastic).astype(np.float64)
-    through_rigid = np.tensordot(
-        np.abs(operators[:, :6]), np.linalg.norm(follow, axis=1), axes=([1], [0])
-    )
-    bounds: Array = np.sqrt(squares) + through_rigid
+    rigid = np.abs(model.rate_operators[:, :, :, :6])
+    bounds: Array = rigid @ np.linalg.norm(follow, axis=1)
     return bounds

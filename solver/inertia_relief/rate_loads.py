@@ -48,7 +48,7 @@ class RateLoads:
     def __init__(
         self, loading: ReducedLoading, coefficients: Array, negligible: float = 0.0
     ) -> None:
-        self._operators = loading.rate_operators
+        self._loading = loading
         self._modes = loading.modes_with_rigid.astype(np.float32)
         self._coefficients = coefficients.astype(np.float32)
         self._negligible = negligible
@@ -60,9 +60,11 @@ class RateLoads:
         moved: Single = self._modes @ displacement.astype(np.float32)
         moving: Single = self._modes @ velocity.astype(np.float32)
         terms, coordinates = self._significant(moved, moving)
+        if len(terms) == 0:
+            return np.zeros_like(displacement)
         products = np.empty((len(terms), count), dtype=np.float32)
         _products(self._coefficients, moved, moving, terms, coordinates, products)
-        force: Single = self._operators[terms, :, coordinates].T @ products
+        force: Single = self._columns(terms, coordinates).T @ products
         loads: Single = self._modes.T @ force
         return -loads.astype(np.float64)
 
@@ -76,3 +78,12 @@ class RateLoads:
         kept = order[np.searchsorted(added, self._negligible, side="right") :]
         terms, coordinates = np.unravel_index(np.sort(kept), bounds.shape)
         return terms, coordinates
+
+    def _columns(self, terms: IntArray, coordinates: IntArray) -> Single:
+        """Columns (k, 6 + m) of the loaded airframe's operators."""
+        model = self._loading.model
+        total = np.zeros((len(terms), 6 + model.size), dtype=np.float32)
+        for weight, operators in zip(self._loading.weights, model.rate_operators, strict=True):
+            if weight != 0.0:
+                total += np.float32(weight) * operators[terms, coordinates]
+        return total

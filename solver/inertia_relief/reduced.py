@@ -19,7 +19,7 @@ from solver.arrays import Array
 from solver.inertia_relief.damping import RayleighDamping
 
 #: Changes whenever the stored arrays change their meaning.
-FORMAT = 2
+FORMAT = 4
 
 Single = NDArray[np.float32]
 
@@ -32,12 +32,15 @@ class ReducedModel:
     damping: RayleighDamping
     origin: Array  #: (3,) where the inertia loads and the rigid modes are taken [m]
     mass: Array  #: (1 + g, M, M) base and full groups
-    rate_operators: Single  #: (1 + g, 12, M, M) gyroscopic, Euler, centrifugal terms
+    rate_operators: Single  #: (1 + g, 12, M, M) gyroscopic, Euler, centrifugal terms, transposed
+    rate_norms: Array  #: (1 + g, 12, M) norms of the elastic loads of unit coordinates
     applied: Array  #: (M, k) unit pin components, then unit air resultants
     inertia: Array  #: (1 + g, M, 12) unit motions, see `Inertia.rigid_load_shapes`
     shell_stress: Single  #: (n_shells, 6, m) rows whose squares sum to von Mises, two faces
     beam_stress: Single  #: (n_beams, 6, m) five rows of normal stress, sqrt(3) times the shear
     beam_points: Single  #: (n_beams, 8, 5) normal stress of the points from the five rows
+    shell_squares: Single  #: (n_shells, 2) sum of the squares of each face's rows
+    beam_squares: Single  #: (n_beams, 8) sum of the squares of each point's normal stress and shear
 
     @property
     def size(self) -> int:

@@ -17,9 +17,9 @@ from solver.inertia_relief.modal_recursion import StepCoefficients, modal_respon
 from solver.inertia_relief.rate_loads import RateLoads
 
 #: Largest change by the last sweep, relative to the largest displacement, strain-energy norm.
-SWEEP_TOLERANCE = 1e-4
+SWEEP_TOLERANCE = 1e-3
 #: Share of the tolerance that the pseudo loads of a sweep may leave out.
-NEGLIGIBLE = 0.5
+NEGLIGIBLE = 0.2
 MAXIMUM_SWEEPS = 30
 
 
@@ -63,7 +63,9 @@ def landing_response(
     response, sweeps, change = swept_response(
         loading, step, load, motion.rate_coefficients().T, tolerance
     )
-    return ReducedResponse(loads.time, loading.modes @ response, sweeps, change, residual)
+    modes = loading.modes.astype(np.float32)
+    coordinates = (modes @ response.astype(np.float32)).astype(np.float64)
+    return ReducedResponse(loads.time, coordinates, sweeps, change, residual)
 
 
 def swept_response(

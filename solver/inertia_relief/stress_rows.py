@@ -6,6 +6,7 @@ what the bounds of the peak search rest on.  The eight normal stresses of a beam
 five numbers: the axial force, and two bending moments at each end.
 """
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,18 +23,29 @@ _ROOT_3 = np.sqrt(3.0)
 _DEPENDENT = 1e-9
 
 
-def reduced_stress_rows(recovery: "StressRecovery", basis: Array) -> tuple[Single, Single, Single]:
-    """Rows of every element per unit coordinate of ``basis`` (n, m).
+@dataclass(frozen=True, slots=True)
+class StressRows:
+    """Stress of every element for each unit coordinate of a basis of m vectors."""
 
-    Returns
-    -------
-    (n_shells, 6, m) array
-        Three rows of the bottom face, three of the top [Pa].
-    (n_beams, 6, m) array
-        Five independent rows of normal stress, then sqrt(3) times the torsional shear [Pa].
-    (n_beams, 8, 5) array
-        Normal stress of the eight points from the five rows.
-    """
+    shells: Single  #: (n_shells, 6, m) three rows of the bottom face, three of the top [Pa]
+    beams: Single  #: (n_beams, 6, m) five rows of normal stress, sqrt(3) times the shear [Pa]
+    points: Single  #: (n_beams, 8, 5) normal stress of the eight points from the five rows
+
+    def shell_squares(self) -> Single:
+        """Sum over the coordinates of the squares of each face's rows, (n_shells, 2)."""
+        squares = np.einsum("erk,erk->er", self.shells, self.shells)
+        return np.asarray(squares.reshape(-1, 2, 3).sum(axis=2), dtype=np.float32)
+
+    def beam_squares(self) -> Single:
+        """Sum of the squares of each point's normal stress and of the shear, (n_beams, 8)."""
+        normal = self.points @ self.beams[:, :5]
+        shear = np.einsum("ek,ek->e", self.beams[:, 5], self.beams[:, 5])
+        squares = np.einsum("epk,epk->ep", normal, normal) + shear[:, None]
+        return np.asarray(squares, dtype=np.float32)
+
+
+def reduced_stress_rows(recovery: "StressRecovery", basis: Array) -> StressRows:
+    """Stress rows of every element for the columns of ``basis`` (n, m)."""
     size = basis.shape[1]
     shells = np.asarray(recovery.shell_operator @ basis).reshape(-1, 2, 3, size)
     shells[:, :, 0] -= shells[:, :, 1] / 2
@@ -42,7 +54,7 @@ def reduced_stress_rows(recovery: "StressRecovery", basis: Array) -> tuple[Singl
     beams = np.asarray(recovery.beam_operator @ basis).reshape(-1, 9, size)
     points, normal = independent_rows(beams[:, :8])
     beam_rows = np.concatenate([normal, _ROOT_3 * beams[:, 8:]], axis=1)
-    return (
+    return StressRows(
         np.ascontiguousarray(shells.reshape(-1, 6, size), dtype=np.float32),
         np.ascontiguousarray(beam_rows, dtype=np.float32),
         np.ascontiguousarray(points, dtype=np.float32),

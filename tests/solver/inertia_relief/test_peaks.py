@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solver.arrays import Array
-from solver.inertia_relief.compression import compress
 from solver.inertia_relief.damping import RayleighDamping
 from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import ReducedResponse
+from solver.inertia_relief.stress_rows import StressRows
 
 
 def stress_model(shells: int, beams: int, size: int, seed: int) -> ReducedModel:
@@ -18,17 +18,25 @@ def stress_model(shells: int, beams: int, size: int, seed: int) -> ReducedModel:
     rng = np.random.default_rng(seed)
     decay = np.linspace(1.0, 0.1, size)
     empty = np.zeros((1, 6 + size, 6 + size))
+    rows = StressRows(
+        (rng.standard_normal((shells, 6, size)) * decay).astype(np.float32),
+        (rng.standard_normal((beams, 6, size)) * decay).astype(np.float32),
+        rng.standard_normal((beams, 8, 5)).astype(np.float32),
+    )
     return ReducedModel(
         key="",
         damping=RayleighDamping(),
         origin=np.zeros(3),
         mass=empty,
         rate_operators=np.zeros((1, 12, 6 + size, 6 + size), dtype=np.float32),
+        rate_norms=np.zeros((1, 12, 6 + size)),
         applied=np.zeros((6 + size, 6)),
         inertia=np.zeros((1, 6 + size, 12)),
-        shell_stress=(rng.standard_normal((shells, 6, size)) * decay).astype(np.float32),
-        beam_stress=(rng.standard_normal((beams, 6, size)) * decay).astype(np.float32),
-        beam_points=rng.standard_normal((beams, 8, 5)).astype(np.float32),
+        shell_stress=rows.shells,
+        beam_stress=rows.beams,
+        beam_points=rows.points,
+        shell_squares=rows.shell_squares(),
+        beam_squares=rows.beam_squares(),
     )
 
 
@@ -62,7 +70,7 @@ def vibration(size: int, count: int, seed: int, highest: float) -> Array:
 
 @settings(max_examples=40, deadline=None)
 @given(
-    size=st.integers(1, 40),
+    size=st.integers(1, 60),
     count=st.integers(2, 400),
     highest=st.sampled_from([0.002, 0.02, 0.1, 0.5]),
     seed=st.integers(0, 10_000),
@@ -70,7 +78,7 @@ def vibration(size: int, count: int, seed: int, highest: float) -> Array:
 def test_every_peak_equals_that_of_evaluating_every_sample(size, count, highest, seed):
     model = stress_model(7, 5, size, seed)
     coordinates = vibration(size, count, seed, highest)
-    peaks = find_peaks(model, response_of(coordinates), tolerance=1e-9)
+    peaks = find_peaks(model, response_of(coordinates))
     expected = every_sample(model, coordinates)
     np.testing.assert_allclose(peaks.stress, expected.max(axis=1), rtol=2e-5)
     at_sample = np.take_along_axis(expected, peaks.sample[:, None], axis=1)[:, 0]
@@ -90,40 +98,10 @@ def test_a_single_spike_between_coarse_samples_is_found(sample):
 def test_smooth_histories_need_few_evaluations():
     model = stress_model(40, 40, 12, 3)
     peaks = find_peaks(model, response_of(vibration(12, 1000, 3, 0.003)))
-    assert peaks.evaluated < 0.35
+    assert peaks.evaluated < 0.2
 
 
 def test_history_at_rest_has_no_peaks():
     model = stress_model(2, 2, 3, 0)
     peaks = find_peaks(model, response_of(np.zeros((3, 20))))
     assert np.all(peaks.stress == 0.0)
-    assert peaks.dropped == 0.0
-
-
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-7])
-def test_compression_drops_no_more_than_stated_at_any_sample(tolerance):
-    rng = np.random.default_rng(6)
-    scale = 10.0 ** -np.linspace(0, 9, 50)
-    turn = np.linalg.qr(rng.standard_normal((50, 50)))[0]
-    coordinates = turn @ (scale[:, None] * vibration(50, 300, 2, 0.05))
-    history = compress(coordinates, tolerance)
-    left_out = np.linalg.norm(coordinates - history.directions @ history.amplitudes, axis=0)
-    largest = np.linalg.norm(coordinates, axis=0).max()
-    assert left_out.max() <= tolerance * largest
-    assert history.dropped == pytest.approx(left_out.max(), rel=1e-5, abs=1e-13 * largest)
-    assert len(history.amplitudes) < 50
-
-
-def test_stress_error_of_compression_is_bounded_by_what_it_drops():
-    model = stress_model(20, 20, 30, 5)
-    coordinates = (10.0 ** -np.linspace(0, 6, 30))[:, None] * vibration(30, 200, 9, 0.05)
-    peaks = find_peaks(model, response_of(coordinates), tolerance=1e-3)
-    exact = every_sample(model, coordinates).max(axis=1)
-    beams = np.concatenate(
-        [model.beam_points @ model.beam_stress[:, :5], model.beam_stress[:, 5:]], axis=1
-    )
-    rows = [*model.shell_stress, *beams]
-    norm = np.array([np.linalg.norm(part.astype(float), 2) for part in rows])
-    largest = np.linalg.norm(coordinates, axis=0).max()
-    assert np.all(np.abs(peaks.stress - exact) <= norm * peaks.dropped * largest + 2e-5 * exact)
-    assert peaks.rank < 30
