@@ -28,8 +28,8 @@ def draw_airframe(
     values: Array | None = None,
     label: str = "peak von Mises stress [MPa]",
     path: Path = PICTURE,
-    elevation: float = 24.0,
-    azimuth: float = -128.0,
+    elevation: float = -28.0,
+    azimuth: float = -60.0,
 ) -> None:
     """Write a picture of the shells, and of the beams where no values colour the shells.
 
@@ -60,7 +60,7 @@ def draw_airframe(
         axes.add_collection3d(Line3DCollection(beams, colors=(0.1, 0.2, 0.5, 0.25), lw=0.3))
     low, high = model.coordinates.min(axis=0), model.coordinates.max(axis=0)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low, zoom=0.98)
+    axes.set_box_aspect(high - low, zoom=1.1)
     axes.view_init(elevation, azimuth)
     axes.set_axis_off()
     axes.set_position((-0.4, -0.4, 1.8, 1.8))
@@ -84,7 +84,7 @@ def main() -> None:
     parser.add_argument("values", type=Path, nargs="?")
     parser.add_argument("-o", "--output", type=Path, default=PICTURE)
     parser.add_argument("--label", default="peak von Mises stress [MPa]")
-    parser.add_argument("--view", type=float, nargs=2, default=(24.0, -128.0))
+    parser.add_argument("--view", type=float, nargs=2, default=(-28.0, -60.0))
     arguments = parser.parse_args()
     model = read_bulk_data(arguments.folder / "airframe.bdf").model
     values = None if arguments.values is None else np.load(arguments.values)

@@ -54,12 +54,13 @@ class DesignLoading:
     payload: float  #: share of every bay's capacity
 
 
-#: Maximum landing mass with full payload and with fuel only; take-off likewise; no fuel.
+#: Maximum landing mass with full payload and with fuel only; take-off; no fuel; end of a flight.
 LOADINGS = (
     DesignLoading("landing", 2857.0, 1.0),
     DesignLoading("landing, no payload", 4057.0, 0.0),
     DesignLoading("take-off", 4308.0, 1.0),
     DesignLoading("no fuel", 0.0, 1.0),
+    DesignLoading("light", 600.0, 0.5),
 )
 
 
@@ -106,6 +107,7 @@ LANDINGS = (
     _landing("two wheels, 10 ft/s", "landing", LIMIT_SINK, 1.0),
     _landing("two wheels, 10 ft/s, lift decays", "landing", LIMIT_SINK, 1.0, DECAYS),
     _landing("two wheels, 10 ft/s, no payload", "landing, no payload", LIMIT_SINK, 1.0),
+    _landing("two wheels, 10 ft/s, light", "light", LIMIT_SINK, 1.0, DECAYS),
     _landing("three wheels, 10 ft/s", "landing", LIMIT_SINK, 0.0, DECAYS),
     _landing("tail down 3 degrees, 10 ft/s", "landing", LIMIT_SINK, 3.0, DECAYS),
     _landing("tail down 8 degrees, 10 ft/s", "landing", LIMIT_SINK, 8.0, DECAYS),
