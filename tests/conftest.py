@@ -17,11 +17,15 @@ from sqlalchemy import Engine
 from app import migrate
 from app.assessments.states import PENDING
 from app.broker import Nudger
+from app.cli.demo import EXAMPLE_AIRCRAFT
 from app.cli.key import create_key
 from app.config import Settings
 from app.db import make_engine
 from app.fleet.registry import AircraftRegistry
 from app.main import create_app
+from app.models import Base
+from solver.aircraft.bizjet import build_bizjet
+from solver.assess import AssessmentModel, load_assessment_model
 from tests import servers
 from tests.solver.aircraft.mini import write_mini_aircraft
 from worker.warm import Models
@@ -77,6 +81,23 @@ def models(aircraft_folder: Path, cache_folder: Path) -> Models:
     return Models(AircraftRegistry(aircraft_folder), cache_folder)
 
 
+#: The example aircraft's reduced model takes a minute; it is kept between runs by content hash.
+KEPT_CACHE = Path(__file__).resolve().parents[1] / "var" / "cache"
+
+
+@pytest.fixture(scope="session")
+def example_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Aircraft folder that holds the example aircraft at full size."""
+    folder = tmp_path_factory.mktemp("example")
+    build_bizjet(folder / EXAMPLE_AIRCRAFT)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def example_jet(example_folder: Path) -> AssessmentModel:
+    return load_assessment_model(example_folder / EXAMPLE_AIRCRAFT, KEPT_CACHE)
+
+
 @pytest.fixture(scope="session")
 def migrated_sqlite(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("sqlite") / "migrated.db"
@@ -85,14 +106,14 @@ def migrated_sqlite(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
-def migrated_postgres(postgres: servers.Postgres) -> str:
-    """Name of a template database at the newest schema."""
-    migrate.upgrade(_with_driver(postgres.create_database("hl_template")))
-    return "hl_template"
-
-
-def _with_driver(url: str) -> str:
-    return url.replace("postgresql://", "postgresql+psycopg://", 1)
+def postgres_databases(postgres: servers.Postgres) -> Iterator[dict[str, str]]:
+    """Addresses of migrated databases by the scope of the fixture that empties them."""
+    urls = {scope: postgres.create_database(f"hl_{scope}") for scope in ("function", "module")}
+    for url in urls.values():
+        migrate.upgrade(url.replace("postgresql://", "postgresql+psycopg://", 1))
+    yield urls
+    for scope in urls:
+        postgres.drop_database(f"hl_{scope}")
 
 
 @dataclass(frozen=True)
@@ -115,9 +136,8 @@ def make_stack(kind: str, var: Path, request: pytest.FixtureRequest) -> Iterator
         database, broker = None, None
         shutil.copy(request.getfixturevalue("migrated_sqlite"), var / "hardlanding.db")
     else:
-        server = request.getfixturevalue("postgres")
-        template = request.getfixturevalue("migrated_postgres")
-        database = server.create_database(f"hl_{number}", template)
+        database = request.getfixturevalue("postgres_databases")[request.scope]
+        servers.empty_database(database, list(Base.metadata.tables))
         # Databases 1 to 15, as every Redis has at least sixteen; each test clears its own.
         broker = request.getfixturevalue("redis_server").url(1 + number % 15)
         with redis.Redis.from_url(broker) as client:
@@ -133,8 +153,6 @@ def make_stack(kind: str, var: Path, request: pytest.FixtureRequest) -> Iterator
         keep_arrays_above=0.0,
     )
     yield Stack(kind, settings)
-    if database is not None:
-        request.getfixturevalue("postgres").drop_database(f"hl_{number}")
 
 
 @pytest.fixture(params=STACKS)

@@ -45,6 +45,7 @@ def run(
     prepare(settings)
     key = _demo_key(settings)
     url = f"http://{settings.host}:{settings.port}"
+    log = settings.var / "service.log"
 
     def show() -> None:
         console = Console()
@@ -55,13 +56,13 @@ def run(
         console.print(
             f"\nThe service is up: {url}/docs. Look further, for example:\n"
             f"  curl -s -H 'X-API-Key: {key}' {url}/v1/landings\n"
-            "Stop it with Ctrl-C.",
+            f"Its log is {log}. Stop it with Ctrl-C.",
             highlight=False,
             soft_wrap=True,
         )
 
     threading.Thread(target=show, name="demo", daemon=True).start()
-    supervise(settings)
+    supervise(settings, log)
 
 
 def prepare(settings: Settings) -> None:
@@ -126,10 +127,11 @@ def post_demo_landings(url: str, api_key: str, console: Console) -> None:
                 result["verdict"],
                 f"{result['worst_utilisation']:.0%}",
                 f"{result['peak_normal_load_factor']:.2f} g",
-                f"{hottest['component']}: {hottest['zone']} ({hottest['side']})",
+                hottest["zone"],
                 f"{result['timing']['total'] * 1e3:.0f} ms",
             )
-            console.print(f"{name}: {result['reasons'][0]['text']}", markup=False)
+            reasons = (reason["text"] for reason in result["reasons"])
+            console.print(f"{name}: {next(reasons)}", markup=False, soft_wrap=True)
     console.print(table)
 
 

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -41,10 +42,10 @@ def serve(
     supervise(settings)
 
 
-def supervise(settings: Settings) -> None:
-    """Run API and worker side by side until SIGTERM or SIGINT."""
+def supervise(settings: Settings, log: Path | None = None) -> None:
+    """Run API and worker side by side until SIGTERM or SIGINT; they print to ``log`` if given."""
     programs = [
         Program("api", api_command(settings)),
         Program("worker", worker_command(settings.worker_concurrency)),
     ]
-    Supervisor(programs, say=lambda line: typer.echo(line, err=True)).run()
+    Supervisor(programs, say=lambda line: typer.echo(line, err=True), log=log).run()

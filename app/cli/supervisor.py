@@ -8,7 +8,9 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from types import FrameType
+from typing import IO
 
 SHORTEST_PAUSE = 0.5  #: before a program that ended is started again [s]
 LONGEST_PAUSE = 30.0  #: [s]
@@ -37,6 +39,7 @@ class Supervisor:
 
     programs: Sequence[Program]
     say: Callable[[str], None]
+    log: Path | None = None  #: takes what the programs print; None: the terminal
     environment: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
     _is_stopping: bool = False
 
@@ -74,9 +77,19 @@ class Supervisor:
         program.pause = min(2 * program.pause, LONGEST_PAUSE)
 
     def _start(self, command: Sequence[str]) -> subprocess.Popen[bytes]:
+        output = None if self.log is None else self.log.open("ab")
+        try:
+            return self._started(command, output)
+        finally:
+            if output is not None:
+                output.close()  # the program keeps its own copy
+
+    def _started(self, command: Sequence[str], output: IO[bytes] | None) -> subprocess.Popen[bytes]:
         return subprocess.Popen(  # noqa: S603 - our own programs
             command,
             env=dict(self.environment),
+            stdout=output,
+            stderr=None if output is None else subprocess.STDOUT,
             # A group of its own: Ctrl-C reaches the supervisor only, which then ends all in order.
             start_new_session=True,
             preexec_fn=_die_with_parent if sys.platform == "linux" else None,
