@@ -21,7 +21,7 @@ from solver.inertia_relief.response import ReducedResponse
 #: Elements evaluated together, so that their stresses stay in the second-level cache.
 ELEMENT_BLOCK = 256
 #: Principal directions of deviation.
-LEADING_DIRECTIONS = 48
+LEADING_DIRECTIONS = 64
 #: Directions that are sought at random beyond those, to find those well.
 OVERSAMPLING = 16
 #: Covers the rounding of the difference of squares that gives what the directions leave out.

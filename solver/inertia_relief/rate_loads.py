@@ -51,28 +51,38 @@ class RateLoads:
         self._loading = loading
         self._modes = loading.modes_with_rigid.astype(np.float32)
         self._coefficients = coefficients.astype(np.float32)
-        self._negligible = negligible
+        self._negligible = negligible / 2  # half before and half after the motion is known
         self._weights = np.abs(coefficients).max(axis=1)[:, None] * loading.rate_norms
 
     def of(self, displacement: Array, velocity: Array) -> Array:
         """Modal pseudo loads (m, nt) of the modal motion (m, nt), [1/s] for the velocity."""
-        count = displacement.shape[1]
-        moved: Single = self._modes @ displacement.astype(np.float32)
-        moving: Single = self._modes @ velocity.astype(np.float32)
-        terms, coordinates = self._significant(moved, moving)
-        if len(terms) == 0:
+        moved, moving = displacement.astype(np.float32), velocity.astype(np.float32)
+        # no coordinate moves more than all modes at their largest together
+        farthest = np.abs(self._modes) @ np.abs(moved).max(axis=1)
+        fastest = np.abs(self._modes) @ np.abs(moving).max(axis=1)
+        rows = np.unique(self._significant(farthest, fastest)[1])
+        if len(rows) == 0:
             return np.zeros_like(displacement)
-        products = np.empty((len(terms), count), dtype=np.float32)
-        _products(self._coefficients, moved, moving, terms, coordinates, products)
+        moved, moving = self._modes[rows] @ moved, self._modes[rows] @ moving
+        farthest[:], fastest[:] = 0.0, 0.0
+        farthest[rows], fastest[rows] = np.abs(moved).max(axis=1), np.abs(moving).max(axis=1)
+        terms, coordinates = self._significant(farthest, fastest)
+        products = np.empty((len(terms), displacement.shape[1]), dtype=np.float32)
+        at = np.searchsorted(rows, coordinates)
+        _products(self._coefficients, moved, moving, terms, at, products)
         force: Single = self._columns(terms, coordinates).T @ products
         loads: Single = self._modes.T @ force
         return -loads.astype(np.float64)
 
-    def _significant(self, displacement: Single, velocity: Single) -> tuple[IntArray, IntArray]:
-        """Terms and coordinates of the products whose bounds together matter."""
+    def _significant(self, farthest: Single, fastest: Single) -> tuple[IntArray, IntArray]:
+        """Terms and coordinates of the products whose bounds together matter.
+
+        ``farthest`` and ``fastest`` (6 + m,) are the largest displacements and velocities.  What
+        is known to be zero is left out, too.
+        """
         bounds = self._weights.copy()
-        bounds[:3] *= np.abs(velocity).max(axis=1)
-        bounds[3:] *= np.abs(displacement).max(axis=1)
+        bounds[:3] *= fastest
+        bounds[3:] *= farthest
         order = np.argsort(bounds, axis=None)
         added = np.cumsum(bounds.ravel()[order])
         kept = order[np.searchsorted(added, self._negligible, side="right") :]

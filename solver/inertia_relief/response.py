@@ -19,7 +19,7 @@ from solver.inertia_relief.rate_loads import RateLoads
 #: Largest change by the last sweep, relative to the largest displacement, strain-energy norm.
 SWEEP_TOLERANCE = 1e-3
 #: Share of the tolerance that the pseudo loads of a sweep may leave out.
-NEGLIGIBLE = 0.2
+NEGLIGIBLE = 0.5
 MAXIMUM_SWEEPS = 30
 
 

@@ -1,0 +1,215 @@
+"""What one landing costs, every way and every step side by side in one run (``make bench``).
+
+The full-order figure is measured on a stated part of the landing and, for the whole landing,
+computed from the measured cost of a step; everything else is measured on the whole landing.  The
+rates of matrix products and of copying, measured in the same run, say what limits the fast path.
+"""
+
+import argparse
+import json
+from collections.abc import Callable
+from time import perf_counter, process_time
+from typing import TypeVar
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from benchmarks.cases import CACHE, CASES, VAR, Case, example_airframe
+from benchmarks.console import ConsoleProgress
+from solver.aircraft.airframe import Airframe
+from solver.assess import AssessmentModel, assess_landing
+from solver.assessment import TouchdownRecord
+from solver.inertia_relief.accumulate import PeakAccumulator
+from solver.inertia_relief.build import airframe_damping, reduced_model
+from solver.inertia_relief.free_body import free_body
+from solver.inertia_relief.full_order import BodyLoads, integrate_full_order
+from solver.inertia_relief.loading import assemble
+from solver.inertia_relief.loads import LandingLoads, applied_shapes, landing_loads
+from solver.inertia_relief.modal_recursion import modal_response
+from solver.inertia_relief.peaks import find_peaks, plan_search
+from solver.inertia_relief.rate_loads import RateLoads
+from solver.inertia_relief.response import NEGLIGIBLE, SWEEP_TOLERANCE, landing_response
+from solver.landing.simulate import SimulationOptions, simulate_landing
+from solver.progress import Progress
+
+REPEATS = 5
+Result = TypeVar("Result")
+
+
+def measured(call: Callable[[], Result]) -> tuple[Result, float]:
+    """Return a call's result and its least processor time over some repeats [s].
+
+    Processor time, because other processes may share the machine; one thread does all the work.
+    """
+    result, least = call(), np.inf
+    for _ in range(REPEATS):
+        start = process_time()
+        result = call()
+        least = min(least, process_time() - start)
+    return result, float(least)
+
+
+def machine_rates() -> dict[str, float]:
+    """Single-precision product rate [Gflop/s] and copy rate [GB/s] of this machine, one thread."""
+    a = np.random.default_rng(0).random((1536, 1536), dtype=np.float32)
+    _, product = measured(lambda: a @ a)
+    source = np.zeros(8_000_000)
+    target = np.empty_like(source)
+    _, copy = measured(lambda: np.copyto(target, source))
+    return {
+        "product_gflop_s": 2e-9 * len(a) ** 3 / product,
+        "copy_gb_s": 2e-9 * source.nbytes / copy,
+    }
+
+
+def full_order_step(
+    airframe: Airframe, case: Case, loads: LandingLoads, progress: Progress
+) -> tuple[float, int]:
+    """Processor seconds of one full-order step and the number of steps it was measured on."""
+    body = free_body(airframe.structure, airframe.inertia(case.factors(airframe)))
+    marks: list[float] = []
+    peaks = PeakAccumulator(airframe.recovery)
+
+    def consume(first: int, displacements: np.ndarray) -> None:
+        peaks(first, displacements)
+        marks.append(process_time())
+
+    integrate_full_order(
+        body,
+        BodyLoads(loads.time, applied_shapes(airframe), loads.applied_amplitudes(), loads.motion),
+        airframe_damping(airframe),
+        consume,
+        block=32,
+        progress=progress,
+    )
+    steps = 32 * (len(marks) - 2)  # the first block holds the factorisation, the last is partial
+    return (marks[-2] - marks[0]) / steps, steps
+
+
+def reduced_parts(
+    airframe: Airframe, model: AssessmentModel, case: Case, loads: LandingLoads
+) -> dict[str, float]:
+    """Seconds of every part of the reduced path, and its peak search."""
+    factors, reduced = case.factors(airframe), model.reduced
+    loading, eigen = measured(lambda: assemble(reduced, factors))
+    motion = loads.motion.at(reduced.origin)
+    amplitudes = np.hstack([loads.applied_amplitudes(), motion.inertia_amplitudes()])
+
+    def modal_loads() -> np.ndarray:
+        shapes = loading.modes_with_rigid.T @ np.hstack([reduced.applied, loading.inertia])
+        return shapes @ amplitudes.T
+
+    load, projecting = measured(modal_loads)
+    step = loading.coefficients(float(loads.time[1] - loads.time[0]))
+    (moved, moving), recursion = measured(lambda: modal_response(step, load, load[:, 0]))
+    size = float(np.sqrt(np.einsum("ij,ij->j", moved, moved).max()))
+    coefficients, limit = motion.rate_coefficients().T, NEGLIGIBLE * SWEEP_TOLERANCE * size
+    _, rate_sweep = measured(lambda: RateLoads(loading, coefficients, limit).of(moved, moving))
+    response, integration = measured(lambda: landing_response(loading, loads))
+    _, plan = measured(lambda: plan_search(response.coordinates))
+    _, peaks = measured(lambda: find_peaks(reduced, response))
+    return {
+        "assemble_and_eigen_s": eigen,
+        "loads_s": projecting,
+        "modal_recursion_s": recursion,
+        "w_terms_first_sweep_s": rate_sweep,
+        "w_sweeps": response.sweeps,
+        "integration_s": eigen + integration,
+        "peak_search_plan_s": plan,
+        "peak_search_s": peaks,
+        "integration_and_peaks_s": eigen + integration + peaks,
+    }
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Measure, print and store under ``var/bench``."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--duration", type=float, default=1.0, help="of the landing [s]")
+    parser.add_argument("--full-order", type=float, default=0.25, help="full-order part [s]")
+    options = parser.parse_args(arguments)
+    progress, case = ConsoleProgress(), CASES[0]
+    with threadpool_limits(1):
+        airframe = example_airframe(progress)
+        model = AssessmentModel(airframe, reduced_model(airframe, CACHE, progress=progress))
+        rates = machine_rates()
+        aircraft = airframe.landing_aircraft(case.factors(airframe))
+        limited = SimulationOptions(time_limit=options.duration, stop_when_settled=False)
+        history, simulation = measured(lambda: simulate_landing(aircraft, case.contact, limited))
+        loads = landing_loads(airframe, history)
+        parts = reduced_parts(airframe, model, case, loads)
+        record = TouchdownRecord(aircraft=model.name, contacts=(case.contact,))
+        assessment, whole = measured(lambda: assess_landing(model, record))
+        step, steps = full_order_step(airframe, case, loads.until(options.full_order), progress)
+    count = len(loads.time) - 1
+    settled = float(assessment.histories[0].time[-1])
+    figures: dict[str, float] = {
+        **rates,
+        "freedoms": airframe.structure.n_free,
+        "elements": model.reduced.element_count,
+        "coordinates": model.reduced.size,
+        "landing_s": float(loads.time[-1]),
+        "simulation_s": simulation,
+        **parts,
+        "full_order_steps_measured": steps,
+        "full_order_step_s": step,
+        "full_order_landing_s": step * count,
+        "full_order_over_reduced": step * count / parts["integration_and_peaks_s"],
+        "assessment_landing_s": settled,
+        "assessment_s": whole,
+    }
+    folder = VAR / "bench"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "landing.json").write_text(json.dumps(figures, indent=1))
+    report(figures, case)
+
+
+def report(figures: dict[str, float], case: Case) -> None:
+    """Print the figures as a table."""
+    print(f"{case.title}; one thread, processor time, least of {REPEATS}")
+    print(
+        f"{figures['freedoms']:.0f} freedoms, {figures['elements']:.0f} elements, "
+        f"{figures['coordinates']:.0f} reduced coordinates, {figures['landing_s']:.2f} s landing"
+    )
+    print(
+        f"machine: {figures['product_gflop_s']:.0f} Gflop/s single-precision products, "
+        f"{figures['copy_gb_s']:.1f} GB/s copies"
+    )
+    rows = [
+        ("landing simulation", "simulation_s"),
+        (
+            f"full order, 1 ms steps ({figures['full_order_steps_measured']:.0f} measured, "
+            "whole landing computed)",
+            "full_order_landing_s",
+        ),
+        ("  one step, stress of all elements included", "full_order_step_s"),
+        ("reduced: integration", "integration_s"),
+        ("  mass of the loading and its modes", "assemble_and_eigen_s"),
+        ("  modal loads", "loads_s"),
+        ("  modal recursion, once", "modal_recursion_s"),
+        ("  W terms, first sweep", "w_terms_first_sweep_s"),
+        ("peak search, all elements", "peak_search_s"),
+        ("  plan of the search", "peak_search_plan_s"),
+        ("reduced: integration and peaks", "integration_and_peaks_s"),
+        (
+            f"whole assessment, {figures['assessment_landing_s']:.2f} s until it rolls",
+            "assessment_s",
+        ),
+    ]
+    for title, name in rows:
+        print(f"  {title:<66}{figures[name] * 1e3:12.1f} ms")
+    samples = 1 + round(figures["landing_s"] / 1e-3)
+    rows_of_stress = 6 * figures["elements"]
+    product = 2e-9 * rows_of_stress * figures["coordinates"] * samples
+    bound = product / 8 / figures["product_gflop_s"]
+    print(f"full order over reduced: {figures['full_order_over_reduced']:.0f} times")
+    print(
+        f"limit: stress of every element at every eighth sample alone is {product / 8:.1f} Gflop, "
+        f"{bound * 1e3:.0f} ms at this machine's rate; reading the stress rows once takes "
+        f"{4e3 * rows_of_stress * figures['coordinates'] / (1e9 * figures['copy_gb_s']):.0f} ms"
+    )
+
+
+if __name__ == "__main__":
+    _start = perf_counter()
+    main()
+    print(f"{perf_counter() - _start:.0f} s in all")
