@@ -10,9 +10,10 @@ from app.config import Settings
 from app.main import create_app
 from app.observe import Metrics
 from app.sweeper import Sweeper
-from tests.conftest import Service
+from tests.conftest import Service, Stack, make_service, make_stack
 from tests.records import record
 from tests.servers import free_port
+from worker.warm import Models
 
 
 def test_ready(shared_service: Service) -> None:
@@ -45,16 +46,19 @@ def test_an_unreachable_database_is_not_ready_and_says_no_more(tmp_path: Path) -
     assert "psycopg" not in broken.text
 
 
-def test_landings_are_accepted_while_the_broker_is_away(service: Service, tmp_path: Path) -> None:
+def test_landings_are_accepted_while_the_broker_is_away(
+    request: pytest.FixtureRequest, tmp_path: Path, models: Models
+) -> None:
     away = f"redis://127.0.0.1:{free_port()}/0"
-    settings = service.settings.model_copy(update={"broker_url": away})
-    headers = service.key("alpha", "post")
-    with TestClient(create_app(settings)) as client:
-        assert client.post("/v1/landings", json=record(), headers=headers).status_code == 202
-        ready = client.get("/readyz")
-    assert ready.status_code == 200
-    assert "unreachable" in ready.json()["broker"]
-    assert service.work() == 1
+    with make_stack("sqlite+filesystem", tmp_path / "var", request) as stack:
+        settings = stack.settings.model_copy(update={"broker_url": away})
+        with make_service(Stack(stack.name, settings), models) as service:
+            assert service.post(record()).status_code == 202
+            ready = service.client.get("/readyz")
+            assert ready.status_code == 200
+            assert "unreachable" in ready.json()["broker"]
+        with make_service(stack, models) as service:
+            assert service.work() == 1
 
 
 def test_a_cleared_message_folder_is_made_again(tmp_path: Path) -> None:
