@@ -53,7 +53,7 @@ def draw_airframe(
         skin.set_clim(0.0, float(np.max(shown)))
         skin.set_linewidth(0.1)
         bar = figure.colorbar(skin, cax=figure.add_axes((0.06, 0.52, 0.014, 0.38)))
-        bar.set_label(label)
+        bar.ax.set_title(label, loc="left", pad=10)
     axes.add_collection3d(skin)
     beams = model.coordinates[model.beams.nodes]
     if values is None:
