@@ -22,7 +22,8 @@ def body_structural(vectors: Array) -> Array:
     vectors : (..., 3) array
         True or axial vectors (forces, moments, rates); both turn alike, as no mirror is involved.
     """
-    return vectors * BODY_STRUCTURAL
+    turned: Array = vectors * BODY_STRUCTURAL
+    return turned
 
 
 def skew(vector: Array) -> Array:

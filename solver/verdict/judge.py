@@ -176,8 +176,11 @@ def _conditions(
         limit = definition.masses.maximum_landing
         yield Reason(
             code="overweight",
-            text=f"landed at {mass:.0f} kg, above the maximum landing mass of {limit:.0f} kg",
-            verdict=Verdict.FIRM,
+            text=(
+                f"landed at {mass:.0f} kg, above the maximum landing mass of {limit:.0f} kg: "
+                "lower thresholds apply"
+            ),
+            verdict=Verdict.NORMAL,
         )
 
 

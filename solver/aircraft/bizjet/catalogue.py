@@ -15,7 +15,7 @@ from solver.aircraft.nastran_sections import section_property
 from solver.arrays import Array
 from solver.fe.model import BeamProperty, Material, ShellProperty
 
-#: The result of `solver.aircraft.sizing`.
+#: The result of `solver.sizing.iteration`.
 SIZED = Path(__file__).with_name("sized.toml")
 
 SIDES = ("centre", "port", "starboard")
@@ -120,7 +120,7 @@ def write_gauges(gauges: Mapping[Bay, float], path: Path = SIZED) -> None:
     order = {family.name: k for k, family in enumerate(FAMILIES)}
     lines = [
         "# Gauges of the example aircraft EBJ-19, bay by bay; port and starboard are alike.",
-        "# Written by `python -m solver.aircraft.sizing`; docs/example-aircraft.md says how.",
+        "# Written by `python -m solver.sizing`; docs/example-aircraft.md says how.",
     ]
     for unit, scale, beams in (("thickness_mm", 1e3, False), ("area_mm2", 1e6, True)):
         for name in order:

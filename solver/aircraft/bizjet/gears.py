@@ -66,7 +66,7 @@ GEAR_TYPES: dict[str, dict[str, dict[str, float | int | str]]] = {
 UNSPRUNG_MASS = {"main": 95.0, "nose": 28.0}  #: [kg]
 
 #: Design limit loads at the ground of one gear [N]: vertical, drag, side.  The largest of the
-#: design cases of `solver.aircraft.sizing_cases`: main gear 123 kN (taxi, 2 g at take-off mass),
+#: design cases of `solver.sizing.iteration_cases`: main gear 123 kN (taxi, 2 g at take-off mass),
 #: 58 kN (spin-up at 10 ft/s), 35 kN (side load); nose gear 42 kN and 23 kN (three wheels at
 #: 10 ft/s), 10 kN (nose-wheel yaw); all but the first with 5 % to spare.
 LIMITS = {"main": (123e3, 61e3, 37e3), "nose": (44e3, 24.5e3, 12e3)}

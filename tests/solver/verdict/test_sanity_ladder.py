@@ -45,11 +45,13 @@ SYMMETRICAL = (
 )
 OTHERS = (
     Step("paper's landing", 0.5 / FOOT, (NORMAL,), roll=3.0),
+    Step("paper's landing at take-off mass", 0.5 / FOOT, (NORMAL,), roll=3.0, mass="take-off"),
     Step("limit sink rate at take-off mass", 6.0, (FIRM, INSPECT), mass="take-off"),
     Step("one gear at the limit sink rate", 10.0, (INSPECT, HARD), roll=2.0),
     Step("roll of 6 degrees", 5.0, (INSPECT,), roll=6.0),
     Step("nose first", 4.0, (INSPECT,), pitch=-1.0),
     Step("overweight", 4.0, (FIRM,), mass="overweight"),
+    Step("overweight, limit sink rate", 10.0, (INSPECT, HARD), mass="overweight"),
 )
 
 

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from solver.aircraft.airframe import Airframe
-from solver.aircraft.sizing_cases import LOADINGS, AppliedLoads, fill_factors
 from solver.arrays import Array
 from solver.inertia_relief.basis import BasisSettings
 from solver.inertia_relief.build import reduced_model
@@ -16,6 +15,7 @@ from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.response import landing_response
 from solver.inertia_relief.static import inertia_relief
 from solver.progress import Progress, silent
+from solver.sizing.cases import LOADINGS, AppliedLoads, fill_factors
 
 #: Samples whose stress is evaluated together.
 BLOCK = 64

@@ -6,7 +6,9 @@ import pytest
 from solver.aircraft.airframe import Airframe
 from solver.aircraft.bizjet.catalogue import Bay
 from solver.aircraft.bizjet.families import FAMILY
-from solver.aircraft.sizing import (
+from solver.arrays import Array
+from solver.sizing.cases import AppliedLoads, design_cases, telling
+from solver.sizing.iteration import (
     LARGEST_GROWTH,
     LARGEST_STEP,
     MAGNIFICATION,
@@ -15,9 +17,7 @@ from solver.aircraft.sizing import (
     magnification,
     resized,
 )
-from solver.aircraft.sizing_cases import AppliedLoads, design_cases, telling
-from solver.aircraft.sizing_stress import static_utilisations
-from solver.arrays import Array
+from solver.sizing.stress import static_utilisations
 
 RIBS = Bay("wing ribs", "strip 03 rear")
 STRINGERS = Bay("wing stringers", "upper strip 01 front")

@@ -1,6 +1,6 @@
 """Sizing of the example aircraft: gauges by the fully-stressed-design ratio method.
 
-    python -m solver.aircraft.sizing [--sweeps N]
+    python -m solver.sizing [--sweeps N]
 
 Every bay's thickness or area is multiplied by (utilisation / target)^p, within a largest step and
 above its minimum gauge, until no bay asks for a change.  Stresses come from inertia relief at every
@@ -23,11 +23,11 @@ from solver.aircraft.airframe import Airframe, load_airframe
 from solver.aircraft.bizjet.build import mesh_bizjet, write_bizjet
 from solver.aircraft.bizjet.catalogue import SIZED, Bay, read_gauges, write_gauges
 from solver.aircraft.bizjet.families import FAMILY
-from solver.aircraft.sizing_cases import AppliedLoads, design_cases
-from solver.aircraft.sizing_stress import dynamic_utilisations, static_utilisations
 from solver.arrays import Array
 from solver.inertia_relief.basis import BasisSettings
 from solver.progress import Progress, silent
+from solver.sizing.cases import AppliedLoads, design_cases
+from solver.sizing.stress import dynamic_utilisations, static_utilisations
 
 TARGET = 0.95  #: utilisation of a fully stressed bay: margin of safety 0.05
 KEPT = (0.92, 0.955)  #: a bay with its utilisation in this range is left alone
@@ -151,7 +151,3 @@ def main() -> None:
     parser.add_argument("--sweeps", type=int, default=15)
     arguments = parser.parse_args()
     size(arguments.sweeps, progress=_say)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,0 +1,1 @@
+"""Sizing of the example aircraft: design cases, stresses, and the iteration of its gauges."""
