@@ -5,7 +5,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 LANES: dict[str, int] = {"interactive": 0, "bulk": 1}
@@ -60,6 +60,12 @@ class Settings(BaseSettings):
         if isinstance(names, tuple) and not set(names) <= set(LANES):
             raise ValueError(f"lanes are {', '.join(LANES)}")
         return names
+
+    @model_validator(mode="after")
+    def _limits_in_order(self) -> "Settings":
+        if not self.soft_time_limit < self.hard_time_limit < self.lease_seconds:
+            raise ValueError("soft_time_limit < hard_time_limit < lease_seconds must hold")
+        return self
 
     @property
     def sqlalchemy_url(self) -> str:

@@ -83,7 +83,13 @@ def new_id() -> str:
 def make_engine(url: str) -> Engine:
     """Engine with the durability this service promises, on either database."""
     if not url.startswith("sqlite"):
-        return create_engine(url, pool_pre_ping=True, pool_size=10, max_overflow=30)
+        return create_engine(
+            url,
+            pool_pre_ping=True,
+            pool_size=10,
+            max_overflow=30,
+            connect_args={"connect_timeout": 5},
+        )
     engine = create_engine(url, pool_size=40, connect_args={"timeout": 15.0})
     event.listen(engine, "connect", _configure_sqlite)
     event.listen(engine, "begin", _begin_sqlite)

@@ -21,23 +21,37 @@ log = structlog.get_logger(__name__)
 _WARM_UP = Contact(sink_rate=0.5, ground_speed=60.0, pitch=0.05)
 
 
+class NewAircraftError(Exception):
+    """An aircraft was installed while the worker ran."""
+
+
 @dataclass(slots=True)
 class Models:
     """Assessment models by aircraft, each loaded once and again when its files change."""
 
     registry: AircraftRegistry
     cache: Path
+    is_sealed: bool = False  #: in a child: loading would take longer than a task may
     _loaded: dict[str, AssessmentModel] = field(default_factory=dict)
+    _unusable: dict[str, str] = field(default_factory=dict)
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
     def get(self, name: str) -> AssessmentModel:
-        """Model of an aircraft; raises `ModelError` if it is not installed."""
+        """Model of an aircraft.
+
+        Raises `ModelError` if it is not installed or cannot be used, and `NewAircraftError` if it
+        was installed after the models were loaded.
+        """
         aircraft = self.registry.get(name)
         if aircraft is None:
             known = ", ".join(a.definition.name for a in self.registry.all()) or "none"
             raise ModelError(f"aircraft {name!r} is not installed here; installed: {known}")
         with self._lock:
             model = self._loaded.get(aircraft.content_hash)
+            if aircraft.content_hash in self._unusable:
+                raise ModelError(self._unusable[aircraft.content_hash])
+            if model is None and self.is_sealed:
+                raise NewAircraftError(f"{name} is new here; the worker starts again to load it")
             if model is None:
                 model = self._load(aircraft)
                 self._loaded[aircraft.content_hash] = model
@@ -51,7 +65,9 @@ class Models:
                 solve(self.get(name), TouchdownRecord(name, (_WARM_UP,)))
             except SolverError as error:
                 # A landing of this aircraft will say the same; the others must not suffer from it.
+                self._unusable[aircraft.content_hash] = str(error)
                 log.error("model.unusable", aircraft=name, error=str(error))
+        self.is_sealed = True
         gc.collect()
         gc.freeze()
 

@@ -1,6 +1,7 @@
 """Claim, solve, finish: working through the queue of landings."""
 
 import os
+import signal
 import socket
 import time
 
@@ -18,7 +19,7 @@ from app.landings import inputs
 from solver.assessment import Assessment
 from solver.errors import RecordError, SimulationDivergedError, SolverError
 from worker.solve import solve, undetermined
-from worker.warm import Models
+from worker.warm import Models, NewAircraftError
 
 log = structlog.get_logger(__name__)
 
@@ -31,7 +32,14 @@ def work_off(engine: Engine, settings: Settings, known: Models, nudger: Nudger) 
         with structlog.contextvars.bound_contextvars(
             assessment=claimed.assessment_id, landing=claimed.landing_id
         ):
-            assess(engine, settings, known, claimed)
+            try:
+                assess(engine, settings, known, claimed)
+            except NewAircraftError as error:
+                log.warning("worker.restart", reason=str(error))
+                # The parent has no time limit and shares what it loads with all of its children;
+                # the supervisor starts it again.
+                os.kill(os.getppid(), signal.SIGTERM)
+                break
         count += 1
         if time.monotonic() >= deadline:
             nudger.nudge()
@@ -57,6 +65,10 @@ def assess(engine: Engine, settings: Settings, known: Models, claimed: Claim) ->
             stored = queue.inputs_of(session, claimed)
         answer = _solve(known, stored)
         _write(engine, settings, claimed, stored, answer)
+    except NewAircraftError as error:
+        with writing(engine) as session:
+            queue.release(session, claimed, str(error))
+        raise
     except SoftTimeLimitExceeded:
         _give_up(engine, settings, claimed, f"not done within {settings.soft_time_limit:g} s")
     except SolverError as error:

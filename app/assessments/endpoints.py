@@ -46,7 +46,7 @@ def get_assessment(
     identifier = str(assessment_id)
     if if_none_match is not None:
         tag = service.current_etag(context.engine, principal, identifier)
-        if tag in [known.strip() for known in if_none_match.split(",")]:
+        if tag in [known.strip().removeprefix("W/") for known in if_none_match.split(",")]:
             return Response(status_code=status.HTTP_304_NOT_MODIFIED, headers=_headers(tag))
     answer, tag = service.get(context.engine, principal, identifier)
     response.headers.update(_headers(tag))
@@ -94,7 +94,7 @@ def get_histories(
     assessment_id: UUID,
     principal: Reader,
     context: Context,
-    contact: Annotated[int, Query(ge=0, le=19)] = 0,
+    contact: Annotated[int, Query(ge=0, le=11)] = 0,
     format: Format = "json",
 ) -> Histories | Response:
     """Curves of one contact: gear forces, strokes, accelerations, energies."""

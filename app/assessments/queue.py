@@ -106,7 +106,18 @@ def give_up(session: Session, claimed: Claim, error: str, max_attempts: int) -> 
     return closed
 
 
-def _close(session: Session, claimed: Claim, state: State, error: str | None) -> bool:
+def release(session: Session, claimed: Claim, reason: str) -> bool:
+    """Put a job back that this worker cannot take on now; no attempt is used up."""
+    return _close(session, claimed, State.QUEUED, reason, attempts=claimed.attempts - 1)
+
+
+def _close(
+    session: Session,
+    claimed: Claim,
+    state: State,
+    error: str | None,
+    attempts: int | None = None,
+) -> bool:
     result = session.execute(
         update(AssessmentJob)
         .where(
@@ -116,6 +127,7 @@ def _close(session: Session, claimed: Claim, state: State, error: str | None) ->
         )
         .values(
             state=state,
+            attempts=claimed.attempts if attempts is None else attempts,
             version=AssessmentJob.version + 1,
             token=None,
             lease_until=None,

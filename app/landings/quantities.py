@@ -9,8 +9,16 @@ the answer wherever they were used.
 import math
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, Strict, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    GetJsonSchemaHandler,
+    Strict,
+    model_validator,
+)
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError
 
 from app.landings.units import (
     AngleUnit,
@@ -32,6 +40,17 @@ StandardDeviation = Annotated[float, Strict(), Field(ge=0, allow_inf_nan=False)]
 
 _DEGREE = math.pi / 180.0
 
+_SOLVER_UNITS = {
+    Dimension.SPEED: "m/s",
+    Dimension.ANGLE: "rad",
+    Dimension.ANGULAR_RATE: "rad/s",
+    Dimension.MASS: "kg",
+    Dimension.LOAD_FACTOR: "g",
+    Dimension.STATION: "m",
+    Dimension.TIME: "s",
+    Dimension.FRACTION: "of one",
+}
+
 
 class Measured(BaseModel):
     """A number with its unit and, if known, its standard deviation in the same unit."""
@@ -42,10 +61,26 @@ class Measured(BaseModel):
     minimum: ClassVar[float]  #: SI
     maximum: ClassVar[float]  #: SI
     default_sd: ClassVar[float]  #: SI
+    default_sd_words: ClassVar[str] = ""  #: where it is no fixed number
 
     value: Number
     unit: str
     sd: StandardDeviation | None = None
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, core_schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Say the range and the default deviation where the interface is described."""
+        schema = handler(core_schema)
+        described = handler.resolve_ref_schema(schema)
+        unit = _SOLVER_UNITS[cls.dimension]
+        default = f"{cls.default_sd:.4g} {unit}"
+        described["description"] = (
+            f"{(cls.__doc__ or '').strip()} Range {cls.minimum:.4g} to {cls.maximum:.4g} {unit}; "
+            f"standard deviation if none is given: {cls.default_sd_words or default}."
+        )
+        return schema
 
     @model_validator(mode="before")
     @classmethod
@@ -158,21 +193,23 @@ class Mass(Measured):
 class GrossWeight(Mass):
     """Gross mass at the landing."""
 
+    default_sd = math.nan
+    default_sd_words = "1 % of the value"
+
     @property
     def sd_si(self) -> float:
         return 0.01 * self.si if self.sd is None else super().sd_si
-
-    default_sd = math.nan  #: one per cent of the value
 
 
 class FuelOrPayload(Mass):
     """Mass in one tank or bay."""
 
+    default_sd = math.nan
+    default_sd_words = "2 % of the value"
+
     @property
     def sd_si(self) -> float:
         return 0.02 * self.si if self.sd is None else super().sd_si
-
-    default_sd = math.nan  #: two per cent of the value
 
 
 class CentreOfGravity(Measured):
@@ -180,7 +217,8 @@ class CentreOfGravity(Measured):
 
     dimension = Dimension.STATION
     minimum, maximum = -200.0, 200.0
-    default_sd = math.nan  #: two per cent of the chord, known with the aircraft
+    default_sd = math.nan
+    default_sd_words = "2 % of the mean aerodynamic chord"
     unit: StationUnit
 
     @property
@@ -204,6 +242,8 @@ class RecordedPeak(LoadFactor):
 
 
 class Duration(Measured):
+    """Time."""
+
     dimension = Dimension.TIME
     minimum, maximum = 0.0, 600.0
     default_sd = 0.15

@@ -119,7 +119,7 @@ class LiftIn(Strict):
 class ContactIn(Strict):
     """One ground contact: the state of the aircraft as it touches."""
 
-    seq: Annotated[int, Field(ge=1, le=20)] | None = None
+    seq: Annotated[int, Field(ge=1, le=12)] | None = None
     t_utc: UtcTime | None = None
     t_sd_s: Annotated[Number, Field(ge=0, le=60)] | None = None
     time: Duration | None = Field(default=None, description="Since the first contact.")
@@ -231,7 +231,7 @@ class TouchdownRecordIn(Strict):
     mass: MassIn = MassIn()
     fuel: Annotated[dict[GroupName, FuelOrPayload], Field(max_length=50)] = {}
     payload: Annotated[dict[GroupName, FuelOrPayload], Field(max_length=50)] = {}
-    contacts: Annotated[list[ContactIn], Field(min_length=1, max_length=20)]
+    contacts: Annotated[list[ContactIn], Field(min_length=1, max_length=12)]
 
     @model_validator(mode="after")
     def _contacts_in_order(self) -> "TouchdownRecordIn":

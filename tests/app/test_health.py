@@ -51,7 +51,7 @@ def test_landings_are_accepted_while_the_broker_is_away(
 ) -> None:
     away = f"redis://127.0.0.1:{free_port()}/0"
     with make_stack("sqlite+filesystem", tmp_path / "var", request) as stack:
-        settings = stack.settings.model_copy(update={"broker_url": away})
+        settings = stack.settings.model_copy(update={"broker_url": away, "sweep_interval": 60.0})
         with make_service(Stack(stack.name, settings), models) as service:
             assert service.post(record()).status_code == 202
             ready = service.client.get("/readyz")

@@ -1,5 +1,6 @@
 """The embedded mode as its user starts it: one command, two programs, no orphans."""
 
+import shutil
 import signal
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +15,7 @@ from app.cli.supervisor import Program, Supervisor
 from app.config import Settings
 from tests.records import record
 from tests.servers import free_port, wait_until
+from tests.solver.aircraft.mini import write_mini_aircraft
 from tests.worker.programs import Programs, children, descendants, is_alive, kill_at_once, programs
 
 PATIENCE = 120.0
@@ -27,7 +29,7 @@ def serving(
     settings = Settings(
         _env_file=None,
         var=tmp_path / "var",
-        aircraft_dir=aircraft_folder,
+        aircraft_dir=shutil.copytree(aircraft_folder, tmp_path / "aircraft"),
         cache_dir=cache_folder,
         port=free_port(),
         worker_concurrency=1,
@@ -84,6 +86,21 @@ def test_nothing_outlives_a_supervisor_that_is_killed_outright(
     process.kill()
     process.wait()
     wait_until(lambda: not any(map(is_alive, members)), "the end of the orphans", 60.0)
+
+
+def test_an_aircraft_installed_later_is_assessed_too(
+    serving: tuple[Programs, httpx2.Client, Any],
+) -> None:
+    started, client, _ = serving
+    folder = Path(started.settings.aircraft_folder)
+    wait_until(lambda: b"worker.warm" in started.log.read_bytes(), "a warm worker", PATIENCE)
+    write_mini_aircraft(folder / "late")
+    definition = folder / "late" / "definition.toml"
+    definition.write_text(definition.read_text().replace('name = "mini"', 'name = "late"', 1))
+    posted = record(2.0, aircraft={"model_id": "late"})
+    place = client.post("/v1/landings", json=posted).headers["location"]
+    wait_until(lambda: client.get(place).json()["state"] == "assessed", "the verdict", PATIENCE)
+    assert client.get(place).json()["attempts"] == 1
 
 
 class TestSupervisor:

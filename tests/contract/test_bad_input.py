@@ -117,7 +117,7 @@ BAD_RECORDS: list[tuple[str, Any, str, str, str]] = [
     ),
     ("no aircraft", {"contacts": [contact()]}, "aircraft", "None", "required"),
     ("no contacts", record(contacts=[]), "contacts", "[]", "at least 1"),
-    ("too many contacts", record(contacts=[contact()] * 21), "contacts", "sink_rate", "at most 20"),
+    ("too many contacts", record(contacts=[contact()] * 13), "contacts", "sink_rate", "at most 12"),
     (
         "crew",
         record(crew_report={"hard_landing_suspected": True}),

@@ -1,6 +1,10 @@
 """What a worker makes of solvers that fail."""
 
+import os
+import shutil
+import signal
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 from sqlalchemy import select
@@ -11,12 +15,14 @@ from app.assessments import queue, recording
 from app.assessments.models import VerdictRow
 from app.broker import Nudger
 from app.db import reading, writing
+from app.fleet.registry import AircraftRegistry
 from solver.assess import AssessmentModel
 from solver.assessment import Assessment, TouchdownRecord
-from solver.errors import EquilibriumError, RecordError, SimulationDivergedError
+from solver.errors import EquilibriumError, ModelError, RecordError, SimulationDivergedError
 from tests.conftest import Service
 from tests.records import record
 from worker.solve import solve
+from worker.warm import Models
 from worker.work import work_off
 
 Solver = Callable[[AssessmentModel, TouchdownRecord], Assessment]
@@ -142,3 +148,31 @@ def test_the_default_keeps_everything_on_one_machine_and_what_matters_in_a_fleet
 ) -> None:
     settings = service.settings.model_copy(update={"keep_arrays_above": None})
     assert settings.keeps_arrays_from == (0.0 if settings.database_url is None else 0.8)
+
+
+class TestNewAircraft:
+    """An aircraft that was installed after the worker had loaded its models."""
+
+    def test_the_worker_asks_to_be_started_again(
+        self, service: Service, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    ) -> None:
+        asked: list[tuple[int, int]] = []
+        monkeypatch.setattr(worker.work.os, "kill", lambda *request: asked.append(request))
+        service.models = Models(service.models.registry, tmp_path, is_sealed=True)
+        location = service.post(record()).headers["location"]
+        service.work()
+        assert asked == [(os.getppid(), signal.SIGTERM)]
+        answer = service.get(location).json()
+        assert (answer["state"], answer["attempts"]) == ("queued", 0)
+        assert "mini is new here" in answer["last_error"]
+
+    def test_one_that_could_not_be_loaded_is_not_tried_for_ever(
+        self, service: Service, tmp_path: Path
+    ) -> None:
+        broken = tmp_path / "aircraft" / "mini"
+        shutil.copytree(service.settings.aircraft_folder / "mini", broken)
+        (broken / "airframe.bdf").write_text("BEGIN BULK\nPLOTEL,1,2,3\nENDDATA\n")
+        models = Models(AircraftRegistry(broken.parent), tmp_path)
+        models.warm_up()
+        with pytest.raises(ModelError, match="PLOTEL"):
+            models.get("mini")
