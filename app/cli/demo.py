@@ -66,15 +66,16 @@ def run(
 
 
 def prepare(settings: Settings) -> None:
-    """Build the example aircraft and its reduced model unless they are there, and the database."""
+    """Write the example aircraft, build its reduced model unless it is kept, and the database."""
     from app.cli.migrate import upgrade
     from solver.aircraft.bizjet import build_bizjet
     from solver.assess import load_assessment_model
 
     folder = settings.aircraft_folder / EXAMPLE_AIRCRAFT
     with progress_bars() as progress:
-        if not (folder / "definition.toml").is_file():
-            build_bizjet(folder, progress=progress)
+        build_bizjet(
+            folder, progress=progress
+        )  # the same bytes each time, unless the program moved on
         load_assessment_model(folder, settings.cache_folder, progress)
     upgrade(settings)
 

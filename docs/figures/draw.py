@@ -53,8 +53,7 @@ def main() -> None:
     settings = get_settings()
     folder = settings.aircraft_folder / EXAMPLE_AIRCRAFT
     with progress_bars() as progress:
-        if not (folder / "definition.toml").is_file():
-            build_bizjet(folder, progress=progress)
+        build_bizjet(folder, progress=progress)
         model = load_assessment_model(folder, settings.cache_folder, progress)
     limit = model.airframe.definition.masses.maximum_landing
     record = TouchdownRecord(EXAMPLE_AIRCRAFT, (DESIGN_CONTACT,), mass=limit)
