@@ -28,6 +28,7 @@ from solver.inertia_relief.loads import landing_loads
 from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import landing_response
+from solver.landing.compilation import compile_kernels
 from solver.landing.history import LandingHistory
 from solver.landing.simulate import simulate_landing
 from solver.progress import Progress, silent
@@ -72,7 +73,11 @@ def load_assessment_model(
         The folder cannot be used; says where and why.
     """
     airframe = load_airframe(folder, progress)
-    return AssessmentModel(airframe, reduced_model(airframe, cache, progress=progress))
+    reduced = reduced_model(airframe, cache, progress=progress)
+    progress("compiling the kernels", 0.0)
+    compile_kernels()
+    progress("compiling the kernels", 1.0)
+    return AssessmentModel(airframe, reduced)
 
 
 def assess_landing(

@@ -17,9 +17,11 @@ from app.cli.progress import progress_bars
 from app.config import get_settings
 from solver.errors import RecordError, SolverError
 from solver.landing.aircraft import LandingAircraft
+from solver.landing.compilation import compile_kernels
 from solver.landing.history import LandingHistory
 from solver.landing.peaks import GearPeaks, gear_peaks, refined_peak
 from solver.landing.simulate import simulate_landing
+from solver.progress import Progress
 
 UNITS = {
     "vertical_force": "n",
@@ -43,7 +45,11 @@ def simulate(
     """Simulate one landing and print gear loads, contacts and energy."""
     given = read_input(landing, LandingFile)
     try:
-        aircraft = landing_aircraft(given)
+        with progress_bars() as progress:
+            aircraft = landing_aircraft(given, progress)
+            progress("compiling the kernels", 0.0)  # takes a while once on every machine
+            compile_kernels()
+            progress("compiling the kernels", 1.0)
         history = simulate_landing(aircraft, given.landing_contact(), given.options.options())
         if csv is not None:
             write_histories(csv, history)
@@ -55,7 +61,7 @@ def simulate(
         show(history, Console())
 
 
-def landing_aircraft(given: LandingFile) -> LandingAircraft:
+def landing_aircraft(given: LandingFile, progress: Progress) -> LandingAircraft:
     """Aircraft of the file, or of the folder it names."""
     if given.aircraft_description is not None:
         return given.aircraft_description.aircraft()
@@ -65,8 +71,7 @@ def landing_aircraft(given: LandingFile) -> LandingAircraft:
     if not (folder / given.aircraft).is_dir():
         known = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
         raise RecordError(f"aircraft: unknown {given.aircraft!r}; known: {', '.join(known) or '-'}")
-    with progress_bars() as progress:
-        airframe = load_airframe(folder / given.aircraft, progress)
+    airframe = load_airframe(folder / given.aircraft, progress)
     loading = airframe.loading_for(mass=given.mass, fuel=given.fuel, payload=given.payload)
     return airframe.landing_aircraft(loading.factors)
 
