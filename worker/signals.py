@@ -1,6 +1,7 @@
 """What happens around the pool: warm models before the fork, clean connections after it."""
 
 import os
+import signal
 import threading
 import time
 from typing import Any
@@ -45,9 +46,9 @@ def watch_pool(sender: Any, **_: Any) -> None:
     """On a broker without an event loop the children take tasks from one queue under one lock.
 
     Whoever is killed while it holds that lock takes it to the grave, and no other child would ever
-    get a task again.  Nobody can tell from outside, so the worker ends and is started anew; what it
-    was at is claimed again when the leases are over.  (With an event loop each child has a pipe of
-    its own, and the pool replaces it.)
+    get a task again.  Nobody can tell from outside, so the worker ends and is started anew, as soon
+    as the other children have finished what they are at.  (With an event loop each child has a pipe
+    of its own, and the pool replaces it.)
     """
     pool = sender.pool._pool
     if type(pool) is not BlockingPool:  # the pool with an event loop is a subclass
@@ -56,9 +57,23 @@ def watch_pool(sender: Any, **_: Any) -> None:
     def end_if_killed(child: Any) -> None:
         if pool._state == RUN and child.exitcode is not None and child.exitcode < 0:
             log.error("worker.child_killed", pid=child.pid, signal=-child.exitcode)
-            os._exit(1)
+            os.kill(os.getpid(), signal.SIGTERM)  # takes no further nudges
+            threading.Thread(target=_end_when_idle, args=(pool,), daemon=True).start()
 
     pool.on_process_down = end_if_killed
+
+
+def _end_when_idle(pool: BlockingPool) -> None:
+    """End the worker once no living child has a task, or the tasks have had their time."""
+    settings = get_settings()
+    deadline = time.monotonic() + settings.drain_budget + settings.soft_time_limit
+    while time.monotonic() < deadline:
+        living = {child.pid for child in list(pool._pool) if child.exitcode is None}
+        jobs = [job for job in list(pool._cache.values()) if not job.ready()]
+        if not any(living & set(job.worker_pids()) for job in jobs):
+            break
+        time.sleep(0.1)
+    os._exit(1)
 
 
 def _end_with_parent(parent: int) -> None:
