@@ -2,8 +2,8 @@
 
 Modes carry the slow global motion.  What they miss is the local stress where loads enter, at the
 gear fittings above all, so every load shape also gives its static response by inertia relief and
-the next terms of its expansion in frequency (block Krylov vectors).  Only what the others do not
-already represent is kept.
+the next terms of its expansion in frequency (block Krylov vectors), at zero and beyond the modes.
+Only what the others do not already represent is kept.
 
 Sources: Craig, "Coupling of substructures for dynamic analyses", 2000 (residual-attachment modes);
 Bai, "Krylov subspace techniques for reduced-order modeling", 2002 (moment matching).
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 _RIGID_SHARE = 1e-4
 #: A load whose balanced part is smaller than this share of it deforms nothing.
 _NO_LOAD = 1e-9
+#: Largest residual of a harmonic response, relative to the load.
+_HARMONIC_ERROR = 1e-6
 #: The shift makes ``K - sigma M`` definite; far below the first elastic mode [Hz].
 _SHIFT_FREQUENCY = 0.5
 
@@ -39,13 +41,15 @@ _SHIFT_FREQUENCY = 0.5
 class BasisSettings:
     """What goes into a reduced basis; part of the key under which a model is cached."""
 
-    modes: int = 80  #: elastic modes of each mass state
+    modes: int = 100  #: elastic modes of each mass state
     fills: tuple[float, ...] = (0.0, 0.5, 1.0)  #: mass states, all groups filled alike
-    residual_order: int = 3  #: vectors of each load: 1 static response, 2 and more Krylov
+    residual_order: int = 2  #: vectors of each load: 1 static response, 2 and more Krylov
     cutoff_frequency: float = 100.0  #: where the terms of the expansion are compared [Hz]
     mode_tolerance: float = 1e-2  #: share of a further mass state's mode that may be dropped
     static_tolerance: float = 1e-3  #: share of a load's own static response that may be dropped
-    krylov_tolerance: float = 3e-4  #: the same of later terms, of the strongest load at its place
+    krylov_tolerance: float = 1e-3  #: the same of later terms, of the strongest load at its place
+    harmonic_frequencies: tuple[float, ...] = (110.0, 150.0)  #: beyond the modes [Hz]
+    harmonic_tolerance: float = 2e-3  #: the same of the response at those frequencies
 
 
 def mass_state(base: "Inertia", groups: "tuple[Inertia, ...]", fill: float) -> "Inertia":
@@ -130,7 +134,9 @@ def build_basis(
     basis lacked before it goes on to the next one.  Every x1 counts by the share of its own strain
     energy that is missing.  Later terms are taken at the cut-off frequency and under the loads of a
     hard landing (`_amplitudes`), and compared with the strongest static response at the same place:
-    a pin, the air loads, the inertia of the structure or of a mass group.
+    a pin, the air loads, the inertia of the structure or of a mass group.  The undamped harmonic
+    response (K - w^2 M)^-1 f at a few frequencies beyond the modes is weighed alike: small stiff
+    parts beside the fittings ring there.
 
     Parameters
     ----------
@@ -156,7 +162,8 @@ def build_basis(
     amplitudes, places = _amplitudes(applied.shape[1] // 6, len(inertial), middle.total_mass)
     acting = _acts(middle, loads)
     relief = inertia_relief(middle)
-    term = relief.displacement(loads[:, acting] * amplitudes[acting])
+    loads = loads[:, acting] * amplitudes[acting]
+    term = relief.displacement(loads)
     norms, places = energy_norms(stiffness, term), places[acting]
     strongest = np.array([norms[places == place].max() for place in places])
     for order in range(settings.residual_order):
@@ -170,10 +177,32 @@ def build_basis(
         else:
             basis = extended(stiffness, basis, term / strongest, settings.krylov_tolerance)
     progress("residual vectors", 1.0)
+    for index, frequency in enumerate(settings.harmonic_frequencies):
+        progress("harmonic vectors", index / len(settings.harmonic_frequencies))
+        term = harmonic_response(middle, loads, frequency)
+        basis = extended(stiffness, basis, term / strongest, settings.harmonic_tolerance)
+    progress("harmonic vectors", 1.0)
     # as modes of the middle state, slow ones last: any loading's motion is then concentrated
     turn = np.linalg.eigh(basis.T @ (middle.mass @ middle.mean_axis(basis)))[1]
     turned: Array = basis @ turn
     return turned
+
+
+def harmonic_response(body: FreeBody, loads: Array, frequency: float) -> Array:
+    """Undamped response (n, k) to balanced loads of one frequency [Hz].
+
+    Raises
+    ------
+    ModelError
+        The frequency is so close to a mode that the solution is not one.
+    """
+    balanced = body.self_equilibrated(loads)
+    matrix = body.stiffness - (2 * np.pi * frequency) ** 2 * body.mass
+    response = factorise(matrix).solve(np.ascontiguousarray(balanced))
+    error = np.abs(matrix @ response - balanced).max() / np.abs(balanced).max()
+    if not error <= _HARMONIC_ERROR:
+        raise ModelError(f"harmonic response at {frequency:g} Hz is off by {error:.3g} of the load")
+    return body.mean_axis(response)
 
 
 def _amplitudes(wrenches: int, inertias: int, mass: float) -> tuple[Array, IntArray]:
