@@ -78,6 +78,21 @@ CASES = (
         fuel=(0.71,),
         payload=(0.35, 0.1, 0.05),
     ),
+    # The settings of the basis were chosen without a look at this one.
+    Case(
+        "tail-down",
+        "8 degrees of pitch, 8.5 ft/s, port wing low, nearly full tanks",
+        Contact(
+            sink_rate=2.6,
+            ground_speed=52.0,
+            pitch=radians(8.0),
+            roll=radians(-1.5),
+            drift=radians(-3.0),
+            pitch_rate=radians(-2.0),
+        ),
+        fuel=(0.93, 0.88),
+        payload=(0.05, 0.4, 0.9),
+    ),
 )
 
 

@@ -1,6 +1,6 @@
 """Reduced against full-order extended inertia relief on the full-size example aircraft.
 
-``python -m benchmarks.reduced_accuracy`` integrates three landings at loadings outside the basis
+``python -m benchmarks.reduced_accuracy`` integrates four landings at loadings outside the basis
 with both, from the same loads, and compares every element's peak.  A full-order run takes minutes;
 its peaks are kept under ``var/verify`` and used again as long as aircraft, landing, damping and
 time step are the same, so that an interrupted or repeated run resumes.  The exit status is 1 if an
