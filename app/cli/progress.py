@@ -21,6 +21,8 @@ def progress_bars() -> Iterator[ProgressCall]:
 
         def show(step: str, share: float) -> None:
             if step not in tasks:
+                for earlier in tasks.values():  # steps follow one another; stop their clocks
+                    bars.update(earlier, completed=1.0)
                 tasks[step] = bars.add_task(step, total=1.0)
             bars.update(tasks[step], completed=share)
 
