@@ -4,6 +4,7 @@ Everything that depends on the aircraft alone is loaded once (`load_assessment_m
 then costs a simulation, a small integration and a search for peaks.
 """
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -131,21 +132,22 @@ def assess_landing(
     )
     spots = rank_hot_spots(airframe, field) if histories else ()
     reasons = judge(definition, record, mass, histories, loads, spots[0] if spots else None)
-    worst = max((spot.utilisation for spot in spots), default=0.0)
+    # With no contact to simulate nothing is known, and a zero would read as harmless.
+    worst = max((spot.utilisation for spot in spots), default=math.nan)
     return Assessment(
         verdict=severest(reasons),
         reasons=reasons,
         probability_limit_exceeded=None,
         driving_contact=_driving_contact(spots, loads),
         worst_utilisation=worst,
-        worst_margin=1.0 / worst - 1.0 if worst > 0.0 else float("inf"),
+        worst_margin=math.inf if worst == 0.0 else 1.0 / worst - 1.0,
         hot_spots=spots,
         gear_loads=loads,
         peak_normal_load_factor=max(
-            (float(h.normal_load_factor.max()) for h in histories), default=float("nan")
+            (float(h.normal_load_factor.max()) for h in histories), default=math.nan
         ),
-        energy_error=max((h.energy.closure_error for h in histories), default=0.0),
-        equilibrium_residual=residual,
+        energy_error=max((h.energy.closure_error for h in histories), default=math.nan),
+        equilibrium_residual=residual if histories else math.nan,
         notes=(*loading.notes, *_limits_of(record, histories)),
         model_hash=model.content_hash,
         program_version=__version__,

@@ -19,9 +19,9 @@ def undetermined(model_hash: str, error: SolverError) -> Assessment:
     nothing = float("nan")
     return Assessment(
         verdict=Verdict.UNDETERMINED,
-        reasons=(Reason("inadmissible-record", str(error), Verdict.UNDETERMINED),),
+        reasons=(Reason("inadmissible_record", str(error), Verdict.UNDETERMINED),),
         probability_limit_exceeded=None,
-        driving_contact=0,
+        driving_contact=None,
         worst_utilisation=nothing,
         worst_margin=nothing,
         hot_spots=(),

@@ -67,6 +67,8 @@ class TestGet:
         result = service.assessed(thin)["result"]
         assert result["verdict"] == "UNDETERMINED"
         assert any("sink_rate" in reason["text"] for reason in result["reasons"])
+        for figure in ("worst_utilisation", "energy_error", "equilibrium_residual"):
+            assert result[figure] is None, "nothing was simulated; a zero would read as harmless"
 
     def test_a_slow_recorder_cannot_show_a_landing(self, service: Service) -> None:
         slow = record(contacts=[contact(2.0, nz_peak={"value": 1.2, "unit": "g", "rate_hz": 2})])
@@ -82,7 +84,8 @@ class TestGet:
         answer = service.assessed(light)
         assert answer["state"] == "assessed"
         assert answer["result"]["verdict"] == "UNDETERMINED"
-        assert answer["result"]["reasons"][0]["code"] == "inadmissible-record"
+        assert answer["result"]["reasons"][0]["code"] == "inadmissible_record"
+        assert answer["result"]["driving_contact"] is None
         assert answer["result"]["worst_utilisation"] is None
 
 
