@@ -1,0 +1,1 @@
+"""The landing with a flexible airframe, coupled both ways to its gears."""

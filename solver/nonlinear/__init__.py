@@ -1,0 +1,1 @@
+"""Geometrically nonlinear dynamics of the whole free airframe: the reference analysis."""

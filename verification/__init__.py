@@ -1,0 +1,1 @@
+"""What the solver computes beside what is known by other means, and the report of it."""
