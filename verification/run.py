@@ -45,7 +45,7 @@ class Run:
         sources: Sequence[str],
         compute: Callable[[], Mapping[str, Array]],
     ) -> dict[str, Array]:
-        """Give the result of a long computation, from the store while what it rests on is unchanged.
+        """Give a long computation's result, stored while what it rests on is unchanged.
 
         Parameters
         ----------
