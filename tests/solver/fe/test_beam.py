@@ -8,14 +8,14 @@ from scipy.linalg import eigh
 
 from solver.fe.stress import build_stress_recovery
 from solver.fe.structure import build_structure
-from tests.solver.fe.meshes import (
+from verification.elements.meshes import (
     beams_on,
     material,
     plate,
     rectangle_section,
     straight_beam,
 )
-from tests.solver.fe.supported import frequencies, nothing_fixed, static
+from verification.elements.supported import frequencies, nothing_fixed, static
 
 LENGTH, FORCE = 1.7, 230.0
 SECTION = rectangle_section(0.03, 0.05)

@@ -1,4 +1,4 @@
-"""Published element benchmarks; the functions and their sources are in benchmarks.py.
+"""Published element benchmarks; the functions and their sources are in verification/elements.
 
 Tolerances: 2 % on a refined mesh for statics, 1 % for frequencies.  Where a figure cannot be
 reached the reason stands with the test.
@@ -7,7 +7,7 @@ reached the reason stands with the test.
 import numpy as np
 import pytest
 
-from tests.solver.fe import benchmarks
+from verification.elements import cantilevers, curved_shells, plates
 
 BOTH = pytest.mark.parametrize("triangular", [False, True], ids=["quads", "triangles"])
 
@@ -18,7 +18,7 @@ def ratios(figures):
 
 @BOTH
 def test_straight_cantilever(triangular):
-    extension, in_plane, out_of_plane, _ = benchmarks.straight_cantilever(
+    extension, in_plane, out_of_plane, _ = cantilevers.straight_cantilever(
         triangular=triangular, refine=2
     )
     found = ratios([extension, in_plane, out_of_plane])
@@ -27,7 +27,7 @@ def test_straight_cantilever(triangular):
 
 def test_straight_cantilever_of_one_row_of_quads():
     """The published mesh itself: six elements already bend in their plane without locking."""
-    found = ratios(benchmarks.straight_cantilever()[:3])
+    found = ratios(cantilevers.straight_cantilever()[:3])
     assert np.all(np.abs(found - 1) < 0.02), found
 
 
@@ -38,7 +38,7 @@ def test_twist_of_a_rectangular_bar_converges_to_saint_venant():
     Quads are shear-flexible plates and resolve the corner flow as the mesh is refined.
     """
     exact = 6.0 / (1e7 / 2.6 * 0.2287 * 0.2 * 0.1**3)
-    found = [benchmarks.straight_cantilever(refine=r)[3].computed / exact for r in (2, 4, 8)]
+    found = [cantilevers.straight_cantilever(refine=r)[3].computed / exact for r in (2, 4, 8)]
     errors = np.abs(np.array(found) - 1)
     assert np.all(np.diff(errors) < 0)
     assert errors[-1] < 0.02
@@ -49,8 +49,8 @@ def test_distorted_meshes_lock_in_plane_but_not_out_of_plane():
     locking of tapered four-noded membrane elements, 1987, for any element that passes the patch
     test with corner displacements); out of plane they do, and refined meshes recover."""
     for shape in ("trapezoidal", "parallelogram"):
-        coarse = benchmarks.straight_cantilever(shape)
-        fine = benchmarks.straight_cantilever(shape, refine=8)
+        coarse = cantilevers.straight_cantilever(shape)
+        fine = cantilevers.straight_cantilever(shape, refine=8)
         assert abs(coarse[2].ratio - 1) < 0.04
         assert coarse[1].ratio < 0.7
         assert abs(fine[2].ratio - 1) < 0.02
@@ -58,30 +58,30 @@ def test_distorted_meshes_lock_in_plane_but_not_out_of_plane():
 
 
 def test_curved_cantilever():
-    found = ratios(benchmarks.curved_cantilever(8, 48))
+    found = ratios(cantilevers.curved_cantilever(8, 48))
     assert np.all(np.abs(found - 1) < 0.02), found
 
 
 @BOTH
 def test_twisted_beam(triangular):
-    found = ratios(benchmarks.twisted_beam(4, 24, triangular))
+    found = ratios(cantilevers.twisted_beam(4, 24, triangular))
     assert np.all(np.abs(found - 1) < 0.02), found
 
 
 def test_twisted_beam_on_the_published_mesh_of_warped_quads():
-    found = ratios(benchmarks.twisted_beam(2, 12))
+    found = ratios(cantilevers.twisted_beam(2, 12))
     assert np.all(np.abs(found - 1) < 0.005), found
 
 
 def test_thin_twisted_beam_of_warped_quads_does_not_lock():
     """A hundred times thinner, on the published mesh: bending is 1e4 times softer than before."""
-    found = ratios(benchmarks.twisted_beam(2, 12, thin=True))
+    found = ratios(cantilevers.twisted_beam(2, 12, thin=True))
     assert np.all(np.abs(found - 1) < 0.01), found
 
 
 @BOTH
 def test_scordelis_lo_roof(triangular):
-    found = ratios([benchmarks.scordelis_lo(d, triangular) for d in (4, 8, 16)])
+    found = ratios([curved_shells.scordelis_lo(d, triangular) for d in (4, 8, 16)])
     assert np.all(np.abs(found[1:] - 1) < 0.02), found
     # The deep-shell value to which shear-flexible shells converge is 0.3008 (0.995 of the target).
     assert np.all(np.diff(np.abs(found - 0.995)) < 0)
@@ -89,19 +89,19 @@ def test_scordelis_lo_roof(triangular):
 
 @BOTH
 def test_pinched_cylinder(triangular):
-    found = ratios([benchmarks.pinched_cylinder(d, triangular) for d in (8, 16, 32)])
+    found = ratios([curved_shells.pinched_cylinder(d, triangular) for d in (8, 16, 32)])
     assert abs(found[-1] - 1) < 0.02, found
     assert np.all(np.diff(np.abs(found - 1)) < 0)
 
 
 def test_hemisphere_of_quads_does_not_lock_on_a_coarse_mesh():
-    found = ratios([benchmarks.hemisphere(d) for d in (4, 8, 16)])
+    found = ratios([curved_shells.hemisphere(d) for d in (4, 8, 16)])
     assert np.all(np.abs(found - 1) < 0.02), found
 
 
 def test_hemisphere_of_triangles_converges_slowly():
     """Flat triangles meet at angles in all three directions: 32 per side for the tolerance."""
-    found = ratios([benchmarks.hemisphere(d, True) for d in (8, 16, 32)])
+    found = ratios([curved_shells.hemisphere(d, True) for d in (8, 16, 32)])
     assert np.all(np.diff(np.abs(found - 1)) < 0)
     assert abs(found[-1] - 1) < 0.02, found
 
@@ -109,14 +109,16 @@ def test_hemisphere_of_triangles_converges_slowly():
 @BOTH
 def test_raasch_hook(triangular):
     """Twist has to pass as in-plane rotation round the hook; without it the hook goes limp."""
-    found = ratios([benchmarks.raasch_hook(*d, triangular) for d in ((3, 18), (5, 36), (10, 72))])
+    found = ratios(
+        [curved_shells.raasch_hook(*d, triangular) for d in ((3, 18), (5, 36), (10, 72))]
+    )
     assert np.all(np.diff(found) > 0)
     assert abs(found[-1] - 1) < 0.02, found
 
 
 @BOTH
 def test_free_plate_fv12(triangular):
-    found = ratios(benchmarks.free_plate(32, triangular))
+    found = ratios(plates.free_plate(32, triangular))
     assert np.all(np.abs(found - 1) < 0.01), found
 
 
@@ -127,17 +129,17 @@ def test_free_plate_against_leissa():
     stiffness = 200e9 * 0.05**3 / 12 / (1 - 0.3**2)
     unit = np.sqrt(stiffness / (8000 * 0.05)) / (2 * np.pi * 10.0**2)
     series = unit * np.array([13.489, 19.789, 24.432, 35.024, 35.024, 61.526])
-    found = [figure.computed for figure in benchmarks.free_plate(32)]
+    found = [figure.computed for figure in plates.free_plate(32)]
     assert np.allclose(found, series, rtol=0.011)
 
 
 @BOTH
 def test_cantilevered_plate_fv16(triangular):
-    found = ratios(benchmarks.cantilevered_plate(32, triangular))
+    found = ratios(plates.cantilevered_plate(32, triangular))
     assert np.all(np.abs(found - 1) < 0.01), found
 
 
 @BOTH
 def test_tapered_membrane_fv32(triangular):
-    found = ratios(benchmarks.tapered_membrane(20, 40, triangular))
+    found = ratios(plates.tapered_membrane(20, 40, triangular))
     assert np.all(np.abs(found - 1) < 0.01), found

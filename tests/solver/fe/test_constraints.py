@@ -7,8 +7,8 @@ from solver.errors import ModelError
 from solver.fe.constraints import constraint_transformation
 from solver.fe.model import Interpolation, RigidBody
 from solver.fe.structure import build_structure
-from tests.solver.fe.meshes import model, rectangle_section, straight_beam
-from tests.solver.fe.supported import nothing_fixed, static
+from verification.elements.meshes import model, rectangle_section, straight_beam
+from verification.elements.supported import nothing_fixed, static
 
 RNG = np.random.default_rng(2)
 POINTS = RNG.normal(size=(9, 3))

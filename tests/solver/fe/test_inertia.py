@@ -12,7 +12,7 @@ from solver.fe.mass import DRILLING_SHARE
 from solver.fe.model import Interpolation, RigidBody
 from solver.fe.structure import build_structure
 from solver.frames import skew
-from tests.solver.fe.meshes import (
+from verification.elements.meshes import (
     beams_on,
     lumped,
     material,

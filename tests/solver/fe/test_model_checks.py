@@ -8,7 +8,7 @@ import pytest
 from solver.errors import ModelError
 from solver.fe.model import Material
 from solver.fe.structure import build_structure
-from tests.solver.fe.meshes import (
+from verification.elements.meshes import (
     beams_on,
     lumped,
     model,

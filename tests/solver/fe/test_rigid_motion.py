@@ -6,7 +6,7 @@ import pytest
 from solver.fe.model import Interpolation, RigidBody
 from solver.fe.stress import build_stress_recovery
 from solver.fe.structure import build_structure
-from tests.solver.fe.meshes import beams_on, model, rectangle_section
+from verification.elements.meshes import beams_on, model, rectangle_section
 
 RNG = np.random.default_rng(5)
 WARPED = np.array([[0, 0, 0.1], [1.1, 0.1, -0.2], [1.3, 0.9, 0.25], [-0.1, 1.0, -0.1]])

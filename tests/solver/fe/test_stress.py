@@ -5,8 +5,15 @@ import pytest
 
 from solver.fe.stress import build_stress_recovery
 from solver.fe.structure import build_structure
-from tests.solver.fe.meshes import beams_on, cylinder, model, plate, rectangle_section, surface
-from tests.solver.fe.supported import nothing_fixed, static
+from verification.elements.meshes import (
+    beams_on,
+    cylinder,
+    model,
+    plate,
+    rectangle_section,
+    surface,
+)
+from verification.elements.supported import nothing_fixed, static
 
 E, NU, T = 70e9, 0.3, 0.02
 

@@ -22,7 +22,7 @@ from solver.inertia_relief.motion import RigidMotion
 from solver.inertia_relief.peaks import StressPeaks, find_peaks
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import landing_response
-from tests.solver.fe import meshes
+from verification.elements import meshes
 
 GRAVITY = np.array([0.0, 0.0, -9.80665])
 

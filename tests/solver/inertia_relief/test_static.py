@@ -9,12 +9,12 @@ from solver.fe.structure import build_structure
 from solver.inertia_relief.free_body import free_body
 from solver.inertia_relief.motion import RigidMotion
 from solver.inertia_relief.static import determinate_support, inertia_relief, steady_state
-from tests.solver.fe import meshes
 from tests.solver.inertia_relief.bodies import (
     beam_structure,
     bending_stress_to_moment,
     point_loads,
 )
+from verification.elements import meshes
 
 LENGTH, COUNT, FORCE = 2.0, 48, 1000.0
 

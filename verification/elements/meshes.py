@@ -1,8 +1,10 @@
-"""Builders of small models for tests: strips, plates, curved shells and chains of beams."""
+"""Builders of small models: strips, plates, curved shells and chains of beams."""
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from solver.arrays import Array, IntArray
 from solver.fe.model import (
@@ -21,6 +23,7 @@ ELEMENT_STEP = 100_000  #: identifiers: quads from 1, triangles and beams from m
 
 
 def material(young: float = 70e9, poisson: float = 0.3, density: float = 2700.0) -> Material:
+    """Isotropic material of number 1."""
     return Material(1, young, young / (2 * (1 + poisson)), poisson, density)
 
 
@@ -45,11 +48,13 @@ def rectangle_section(width: float, height: float, identifier: int = 1) -> BeamP
 
 
 def no_shells(corners: int) -> Shells:
+    """No elements of that many corners."""
     empty = np.zeros(0, dtype=np.int64)
     return Shells(empty, np.zeros((0, corners), dtype=np.int64), empty)
 
 
 def no_beams() -> Beams:
+    """No beams."""
     empty = np.zeros(0, dtype=np.int64)
     return Beams(
         empty, np.zeros((0, 2), dtype=np.int64), empty, np.zeros((0, 3)), np.zeros((0, 2, 3))
@@ -57,11 +62,18 @@ def no_beams() -> Beams:
 
 
 def no_masses() -> PointMasses:
+    """No lumped masses."""
     empty = np.zeros(0, dtype=np.int64)
     return PointMasses(empty, empty, np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3, 3)))
 
 
-def lumped(nodes: Sequence[int], masses: Sequence[float], offsets=None, inertias=None):
+def lumped(
+    nodes: Sequence[int],
+    masses: Sequence[float],
+    offsets: ArrayLike | None = None,
+    inertias: ArrayLike | None = None,
+) -> PointMasses:
+    """Lumped masses [kg] at node rows, with offsets (k, 3) [m] and tensors (k, 3, 3) [kg m2]."""
     count = len(nodes)
     return PointMasses(
         np.arange(count) + 900_001,
@@ -130,12 +142,25 @@ def split(quads: IntArray, crossed: bool = True) -> IntArray:
     return np.concatenate([first, second])
 
 
+def shell_mesh(
+    coordinates: Array,
+    quads: IntArray,
+    triangular: bool = False,
+    crossed: bool = True,
+    **options: Any,
+) -> FiniteElementModel:
+    """Shells on ``quads``, each split into two triangles if ``triangular``."""
+    if triangular:
+        return model(coordinates, triangles=split(quads, crossed), **options)
+    return model(coordinates, quads=quads, **options)
+
+
 def surface(
     shape: Callable[[Array, Array], Array],
     across: int,
     along: int,
     triangular: bool = False,
-    **options,
+    **options: Any,
 ) -> FiniteElementModel:
     """Shell mesh of ``shape(s, t) -> (..., 3)`` over the unit square; s across, t along.
 
@@ -144,13 +169,11 @@ def surface(
     t, s = np.meshgrid(np.linspace(0, 1, along + 1), np.linspace(0, 1, across + 1), indexing="ij")
     coordinates = shape(s, t).reshape(-1, 3)
     quads = grid_quads(grid_nodes(across, along))
-    if triangular:
-        return model(coordinates, triangles=split(quads), **options)
-    return model(coordinates, quads=quads, **options)
+    return shell_mesh(coordinates, quads, triangular, **options)
 
 
 def plate(
-    width: float, length: float, across: int, along: int, triangular: bool = False, **options
+    width: float, length: float, across: int, along: int, triangular: bool = False, **options: Any
 ) -> FiniteElementModel:
     """Flat plate in the x-y plane, x across (0 to width), y along (0 to length)."""
     return surface(
@@ -163,22 +186,24 @@ def plate(
 
 
 def cylinder(
-    radius: float, length: float, around: int, along: int, triangular: bool = False, **options
+    radius: float, length: float, around: int, along: int, triangular: bool = False, **options: Any
 ) -> FiniteElementModel:
-    """Closed circular cylinder about x from 0 to ``length``, normals outward."""
+    """Mesh a closed circular cylinder about x from 0 to ``length``, normals outward."""
     angle = 2 * np.pi * np.arange(around) / around
     x = np.linspace(0, length, along + 1)
     ring = np.stack([0 * angle, radius * np.cos(angle), radius * np.sin(angle)], axis=-1)
     coordinates = (ring[None] + x[:, None, None] * np.array([1.0, 0, 0])).reshape(-1, 3)
     nodes = np.arange(around * (along + 1)).reshape(along + 1, around)
     quads = grid_quads(np.concatenate([nodes, nodes[:, :1]], axis=1))
-    if triangular:
-        return model(coordinates, triangles=split(quads), **options)
-    return model(coordinates, quads=quads, **options)
+    return shell_mesh(coordinates, quads, triangular, **options)
 
 
 def beam_chain(
-    points: Array, section: BeamProperty, orientation=(0.0, 1.0, 0.0), offset=None, **options
+    points: Array,
+    section: BeamProperty,
+    orientation: ArrayLike = (0.0, 1.0, 0.0),
+    offset: ArrayLike | None = None,
+    **options: Any,
 ) -> FiniteElementModel:
     """Beams joining ``points`` (n, 3) one after another; all ends shifted by ``offset``."""
     count = len(points) - 1
@@ -191,7 +216,12 @@ def beam_chain(
     )
 
 
-def beams_on(nodes: IntArray, orientation=(0.0, 1.0, 0.0), offset=None, section: int = 1) -> Beams:
+def beams_on(
+    nodes: IntArray,
+    orientation: ArrayLike = (0.0, 1.0, 0.0),
+    offset: ArrayLike | None = None,
+    section: int = 1,
+) -> Beams:
     """Beams on pairs of node rows (m, 2)."""
     count = len(nodes)
     offsets = np.zeros((count, 2, 3))
@@ -206,7 +236,9 @@ def beams_on(nodes: IntArray, orientation=(0.0, 1.0, 0.0), offset=None, section:
     )
 
 
-def straight_beam(length: float, count: int, section: BeamProperty, **options):
+def straight_beam(
+    length: float, count: int, section: BeamProperty, **options: Any
+) -> FiniteElementModel:
     """Beam along x from 0 to ``length``."""
     points = np.zeros((count + 1, 3))
     points[:, 0] = np.linspace(0, length, count + 1)

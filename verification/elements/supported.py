@@ -3,11 +3,12 @@
 import numpy as np
 from scipy.sparse.linalg import eigsh, splu
 
-from solver.arrays import Array, BoolArray
+from solver.arrays import Array, BoolArray, IntArray
 from solver.fe.structure import Structure
 
 
 def nothing_fixed(structure: Structure) -> BoolArray:
+    """No freedom (n, 6) held."""
     return np.zeros((structure.model.node_count, 6), dtype=bool)
 
 
@@ -43,12 +44,15 @@ def frequencies(structure: Structure, fixed: BoolArray, count: int, shift: float
     values = eigsh(
         stiffness, count, mass, sigma=sigma, which="LM", return_eigenvectors=False, v0=start
     )
-    return np.sqrt(np.clip(np.sort(values), 0.0, None)) / (2 * np.pi)
+    found: Array = np.sqrt(np.clip(np.sort(values), 0.0, None)) / (2 * np.pi)
+    return found
 
 
-def shares(quads: Array, coordinates: Array) -> Array:
+def shares(quads: IntArray, coordinates: Array) -> Array:
     """Surface area (n,) that belongs to each node of flat quadrilaterals."""
     corner = coordinates[quads]
     normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
     areas = np.linalg.norm(normal, axis=1) / 2
-    return np.bincount(quads.ravel(), np.repeat(areas / 4, 4), minlength=len(coordinates))
+    total = np.zeros(len(coordinates))
+    np.add.at(total, quads.ravel(), np.repeat(areas / 4, 4))
+    return total

@@ -1,0 +1,1 @@
+"""Published element benchmarks and patch tests, computed with the solver's own elements."""
