@@ -1,7 +1,7 @@
 """A figure of ours beside one found by other means, with the difference that is admissible."""
 
 from dataclasses import dataclass
-from math import isfinite
+from math import inf, isfinite
 
 
 @dataclass(frozen=True, slots=True)
@@ -12,11 +12,24 @@ class Comparison:
     found: float
     target: float
     tolerance: float  #: largest admissible `difference`
-    unit: str  #: of ``found`` and ``target``
+    unit: str  #: of ``found`` and ``target``; empty for a plain number
     source: str  #: where the target comes from: author and report, closed form, other code
     reason: str  #: why the tolerance is what it is
     #: What the difference is divided by; None stands for the target's size, 1 for no division.
     scale: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.scale is None and self.target == 0:
+            raise ValueError(f"{self.name}: a target of zero needs a scale")
+        if self.scale is not None and not self.scale > 0:
+            raise ValueError(f"{self.name}: the scale must be above zero, got {self.scale:g}")
+        if not self.tolerance >= 0:
+            raise ValueError(f"{self.name}: the tolerance must not be negative")
+
+    @property
+    def is_relative(self) -> bool:
+        """Whether the difference is a share of something rather than in the figures' unit."""
+        return self.scale != 1
 
     @property
     def difference(self) -> float:
@@ -28,3 +41,12 @@ class Comparison:
     def holds(self) -> bool:
         """Whether the difference is a number within the tolerance."""
         return isfinite(self.difference) and self.difference <= self.tolerance
+
+    @property
+    def used(self) -> float:
+        """Share of the tolerance that the difference takes; infinite when it is not a number."""
+        if not isfinite(self.difference):
+            return inf
+        if self.difference == 0:
+            return 0.0
+        return self.difference / self.tolerance if self.tolerance > 0 else inf
