@@ -1,0 +1,153 @@
+"""Figures as they are printed: digits that the tolerance asks for, prefixes, aligned points."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from verification.comparison import Comparison
+
+#: Units that take a prefix, and the prefixes tried, largest first.
+_PREFIXED = frozenset({"N", "Pa", "J", "W", "Hz", "N m", "N/m", "N m/rad", "m", "s"})
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+#: Larger prefixes than none say nothing for these.
+_NO_LARGER = frozenset({"m", "s"})
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A cell of a table; ``hidden`` takes room after the text, so that the points align."""
+
+    text: str
+    hidden: str = ""
+    is_number: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ComparedFigures:
+    """A comparison as it is printed."""
+
+    found: str
+    target: str
+    unit: str
+    difference: str
+    tolerance: str
+
+
+def compared(row: Comparison) -> ComparedFigures:
+    """Print a comparison with as many digits as its tolerance can tell apart."""
+    size = max(abs(row.target), abs(row.found)) if math.isfinite(row.found) else abs(row.target)
+    factor, unit = _prefixed(size, row.unit)
+    scale = abs(row.target) if row.scale is None else row.scale
+    finest = row.tolerance * scale
+    decimals = _decimals(size / factor, finest / factor)
+    return ComparedFigures(
+        found=fixed(row.found / factor, decimals),
+        target=fixed(row.target / factor, decimals),
+        unit=unit,
+        difference=_difference(row.difference, row),
+        tolerance=_difference(row.tolerance, row),
+    )
+
+
+def fixed(value: float, decimals: int) -> str:
+    """Print with fixed decimals and a true minus; very large and very small as powers of ten."""
+    if not math.isfinite(value):
+        return "not a number" if math.isnan(value) else ("∞" if value > 0 else "−∞")
+    if value == 0:
+        return "0"
+    if abs(value) >= 1e7 or (decimals > 9 and abs(value) < 1e-3):
+        return power_of_ten(value)
+    return f"{value:.{min(decimals, 9)}f}".replace("-", "−")
+
+
+def power_of_ten(value: float, digits: int = 2) -> str:
+    """Print as a number times a power of ten."""
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    return f"{mantissa} × 10{str(int(exponent)).translate(_RAISED)}".replace("-", "−")
+
+
+def short(value: float, digits: int = 2) -> str:
+    """Print with a few significant digits."""
+    if value == 0:
+        return "0"
+    if not math.isfinite(value):
+        return fixed(value, 0)
+    if not 1e-3 <= abs(value) < 1e5:
+        return power_of_ten(value, digits)
+    return fixed(value, max(0, digits - 1 - math.floor(math.log10(abs(value)))))
+
+
+def share(value: float) -> str:
+    """Print a share as a percentage, very small ones as powers of ten."""
+    if value == 0 or not math.isfinite(value):
+        return fixed(value, 0)
+    return f"{short(100 * value)} %" if value >= 1e-5 else power_of_ten(value)
+
+
+def duration(seconds: float) -> str:
+    """Print a duration as one would say it."""
+    if seconds < 1:
+        return f"{seconds:.2f} s"
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes} min {rest:02d} s"
+
+
+def aligned(columns: Sequence[Sequence[str]]) -> list[list[Cell]]:
+    """Cells of columns; in a column of numbers the decimal points stand above each other."""
+    result = []
+    for column in columns:
+        if not any(_is_number(text) for text in column):
+            result.append([Cell(text) for text in column])
+            continue
+        # What follows the point, for plain numbers only: 1.2 × 10⁻³ stands by itself.
+        tails = [
+            text[text.index(".") :] if _is_plain(text) and "." in text else "" for text in column
+        ]
+        longest = max((tail.rstrip(" %") for tail in tails), key=len, default="")
+        cells = []
+        for text, tail in zip(column, tails, strict=True):
+            digits = tail.rstrip(" %")
+            lacks = longest[len(digits) :] if _is_plain(text) and not text.endswith("%") else ""
+            number = _is_number(text) or text in ("", "–")
+            cells.append(Cell(text, lacks, number))
+        result.append(cells)
+    return result
+
+
+def _is_number(text: str) -> bool:
+    return bool(text) and (text[0].isdigit() or (text[0] in "−-+" and text[1:2].isdigit()))
+
+
+def _is_plain(text: str) -> bool:
+    stripped = text.lstrip("−-+").rstrip(" %")
+    return stripped.replace(".", "", 1).isdigit()
+
+
+def _prefixed(size: float, unit: str) -> tuple[float, str]:
+    if unit not in _PREFIXED or size == 0:
+        return 1.0, unit
+    for factor, prefix in _PREFIXES:
+        if unit in _NO_LARGER and factor > 1:
+            continue
+        if size >= factor * 0.9999999:
+            return factor, prefix + unit
+    return 1.0, unit
+
+
+def _decimals(size: float, finest: float) -> int:
+    """Decimals that show a tenth of the finest difference, three digits at least, nine at most."""
+    if size == 0 or not math.isfinite(size):
+        return 3
+    lead = math.floor(math.log10(size))
+    digits = 9 if finest == 0 else math.ceil(lead - math.log10(finest)) + 2
+    return max(0, min(max(digits, 3), 9) - 1 - lead)
+
+
+def _difference(value: float, row: Comparison) -> str:
+    if row.is_relative:
+        return share(value)
+    return f"{short(value)} {row.unit}".rstrip()
