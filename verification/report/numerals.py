@@ -37,6 +37,13 @@ class ComparedFigures:
 
 def compared(row: Comparison) -> ComparedFigures:
     """Print a comparison with as many digits as its tolerance can tell apart."""
+    if row.target == 0:
+        return ComparedFigures(
+            short(row.found, 3),
+            "0",
+            row.unit,
+            *(_difference(x, row) for x in (row.difference, row.tolerance)),
+        )
     size = max(abs(row.target), abs(row.found)) if math.isfinite(row.found) else abs(row.target)
     factor, unit = _prefixed(size, row.unit)
     scale = abs(row.target) if row.scale is None else row.scale
