@@ -202,7 +202,7 @@ def _loaded_groups(
     groups = []
     for group, masses in zip(definition.groups, loads, strict=True):
         inertia = point_mass_inertia(structure.transformation, structure.model.coordinates, masses)
-        groups.append(LoadedGroup(group, inertia, MassMoments.of(inertia)))
+        groups.append(LoadedGroup(group, masses, inertia, MassMoments.of(inertia)))
     return tuple(groups)
 
 

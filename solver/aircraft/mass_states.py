@@ -12,6 +12,7 @@ import numpy as np
 from solver.aircraft.definition import AircraftDefinition, MassGroup
 from solver.arrays import Array
 from solver.fe.inertia import Inertia, MassProperties
+from solver.fe.model import PointMasses
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +53,7 @@ class LoadedGroup:
     """A tank or payload bay of the airframe."""
 
     definition: MassGroup
+    point_masses: PointMasses  #: of the full group
     inertia: Inertia  #: of the full group
     moments: MassMoments  #: of the full group
 

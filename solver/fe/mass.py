@@ -52,7 +52,7 @@ def structural_inertia(
         Of the model's beams.
     """
     count = model.node_count
-    shell_mass, shell_nodes, shell_rotary = _shells(model, quads, triangles)
+    scalar, shell_nodes, shell_rotary = shell_mass(model, quads, triangles)
     positions, masses, shapes = beam_mass_points(geometry, beams)
     halves = 0.5 * np.repeat(beam_rotary_inertia(geometry, beams), 2, axis=0)
     lumped = point_mass_inertia(transformation, model.coordinates, model.point_masses)
@@ -62,8 +62,8 @@ def structural_inertia(
     )
     at_nodes = attached_points(on_shells, np.zeros((len(on_shells), 3)), count)
     interpolation = vstack([at_nodes, _beam_interpolation(model, shapes)]) @ transformation
-    scalar = block_diag(
-        [shell_mass[on_shells][:, on_shells], diags_array(masses.ravel()), lumped.scalar_mass]
+    masses_of_points = block_diag(
+        [scalar[on_shells][:, on_shells], diags_array(masses.ravel()), lumped.scalar_mass]
     )
 
     rotary = np.zeros((count, 3, 3))
@@ -76,13 +76,13 @@ def structural_inertia(
             [model.coordinates[on_shells], positions.reshape(-1, 3), lumped.points]
         ),
         interpolation=csr_array(vstack([interpolation, lumped.interpolation])),
-        scalar_mass=csr_array(scalar),
+        scalar_mass=csr_array(masses_of_points),
         rotary_interpolation=csr_array(node_rotations(turning, count) @ transformation),
         rotary=rotary[turning],
     )
 
 
-def _shells(
+def shell_mass(
     model: FiniteElementModel, quads: ShellSections, triangles: ShellSections
 ) -> tuple[csr_array, IntArray, Array]:
     """Scalar mass (n, n) of all nodes, and the sections' rotary inertia lumped at nodes."""

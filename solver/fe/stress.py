@@ -86,12 +86,12 @@ def build_stress_recovery(structure: Structure) -> StressRecovery:
     """Stress operators of all elements of a structure."""
     model = structure.model
     size = 6 * model.node_count
-    quads = _shell_faces(
+    quads = shell_face_stresses(
         quad_strains(model.coordinates[model.quads.nodes]), shell_sections(model, model.quads)
     )
     sections = shell_sections(model, model.triangles)
     lumping = side_lumping(model.triangles.nodes, model.quads.nodes, model.node_count)
-    triangles = _shell_faces(
+    triangles = shell_face_stresses(
         triangle_strains(model.coordinates[model.triangles.nodes], sections, lumping), sections
     )
     geometry = beam_geometry(model.coordinates, model.beams)
@@ -110,7 +110,7 @@ def build_stress_recovery(structure: Structure) -> StressRecovery:
     )
 
 
-def _shell_faces(strains: Array, sections: ShellSections) -> Array:
+def shell_face_stresses(strains: Array, sections: ShellSections) -> Array:
     """Stress at both faces (m, 6, nd) from membrane strains and curvatures (m, 6, nd)."""
     half = (0.5 * sections.thickness)[:, None, None]
     membrane, curvature = strains[:, :3], strains[:, 3:]

@@ -1,0 +1,1 @@
+"""Self-verification of the nonlinear analysis, before it serves as a reference for others."""
