@@ -28,8 +28,44 @@ _A = np.array(
         [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
     ]
 )
-_C = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
+NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 _ERROR = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
+
+
+@numba.njit(cache=True)
+def put_stage(now: Array, stages: Array, stage: int, part: float, trial: Array) -> None:
+    """Fill the trial state of a stage from the derivatives of those before it."""
+    trial[:] = now
+    for k in range(stage):
+        if _A[stage, k] != 0.0:
+            trial += part * _A[stage, k] * stages[k]
+
+
+@numba.njit(cache=True)
+def step_error(
+    now: Array, trial: Array, stages: Array, part: float, scale: Array, tolerance: float
+) -> float:
+    """Error of a step from ``now`` to ``trial`` over its bound, root mean square of all states."""
+    error = 0.0
+    for i in range(now.size):
+        change = 0.0
+        for k in range(7):
+            change += _ERROR[k] * stages[k, i]
+        bound = scale[i] + max(abs(now[i]), abs(trial[i]))
+        error += (part * change / (tolerance * bound)) ** 2
+    return float(np.sqrt(error / now.size))
+
+
+@numba.njit(cache=True)
+def next_step(step: float, part: float, error: float, interval: float) -> float:
+    """Step to try after one of length ``part`` with this error."""
+    if not error < 1e12:
+        return 0.1 * part
+    growth: float = min(5.0, max(0.2, 0.9 * max(error, 1e-8) ** -0.2))
+    if error > 1.0 or growth < 1.0:
+        return growth * part
+    # A step cut short by the grid says nothing against a longer one.
+    return min(max(step, growth * part), interval)
 
 
 @numba.njit(cache=True)
@@ -98,12 +134,9 @@ def integrate(
             # Equal shares of what is left, never a crumb at the end.
             part = left / np.ceil(left / step * (1.0 - 1e-9))
             for stage in range(1, 7):
-                trial[:] = now
-                for k in range(stage):
-                    if _A[stage, k] != 0.0:
-                        trial += part * _A[stage, k] * stages[k]
+                put_stage(now, stages, stage, part, trial)
                 evaluate(
-                    begin + done + _C[stage] * part,
+                    begin + done + NODES[stage] * part,
                     trial,
                     airframe,
                     gears,
@@ -113,29 +146,14 @@ def integrate(
                     gear_answer,
                 )
             evaluations += 6
-            error = 0.0
-            for i in range(size):
-                change = 0.0
-                for k in range(7):
-                    change += _ERROR[k] * stages[k, i]
-                bound = scale[i] + max(abs(now[i]), abs(trial[i]))
-                error += (part * change / (tolerance * bound)) ** 2
-            error = np.sqrt(error / size)
-            if not error < 1e12:
-                step = 0.1 * part
-            else:
-                growth = min(5.0, max(0.2, 0.9 * max(error, 1e-8) ** -0.2))
-                if error <= 1.0:
-                    done += part
-                    now[:] = trial
-                    stages[0] = stages[6]
-                    # A step cut short by the grid says nothing against a longer one.
-                    step = max(step, growth * part) if growth >= 1.0 else growth * part
-                    step = min(step, interval)
-                    if left - part <= 1e-9 * interval:
-                        break
-                else:
-                    step = growth * part
+            error = step_error(now, trial, stages, part, scale, tolerance)
+            step = next_step(step, part, error, interval)
+            if error <= 1.0:
+                done += part
+                now[:] = trial
+                stages[0] = stages[6]
+                if left - part <= 1e-9 * interval:
+                    break
             if step < 1e-9 * interval:
                 return row, step, evaluations
         else:
