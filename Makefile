@@ -25,12 +25,14 @@ contracts:  ## who may import whom
 	@bin/setup dev && $(B)/lint-imports
 
 check: test lint types contracts  ## everything that CI runs
+	@$(MAKE) --no-print-directory verify QUICK=1
 
 bench:  ## timings of one landing, side by side in one run
 	@bin/setup dev && $(B)/python -m benchmarks.landing
 
-verify:  ## reduced against full order on the full airframe (minutes; resumes where it stopped)
-	@bin/setup dev && $(B)/python -m benchmarks.reduced_accuracy
+verify:  ## compare with independent means, report in var/verify (QUICK=1, ONLY=chapter, DOCS=1)
+	@$(if $(QUICK),bin/setup dev,bin/setup peers || bin/setup dev) && $(B)/python -m verification \
+	  $(if $(QUICK),--quick) $(if $(ONLY),--only $(ONLY)) $(if $(DOCS),--docs)
 
 docs:  ## draw the figures of README and docs again
 	@bin/setup dev && $(B)/python docs/figures/draw.py
@@ -41,7 +43,8 @@ openapi:  ## write the snapshot of the interface that the contract test compares
 lock:  ## resolve the dependencies again
 	@bin/setup dev && $(B)/pip install --quiet uv && $(B)/uv lock --upgrade \
 	  && $(B)/uv export --quiet --frozen --no-emit-project --no-header --no-annotate --group build --no-group dev -o requirements.lock \
-	  && $(B)/uv export --quiet --frozen --no-emit-project --no-header --no-annotate --group build -o requirements-dev.lock
+	  && $(B)/uv export --quiet --frozen --no-emit-project --no-header --no-annotate --group build -o requirements-dev.lock \
+	  && $(B)/uv export --quiet --frozen --no-emit-project --no-header --no-annotate --group build --group peers -o requirements-peers.lock
 
 clean:  ## remove the environment and all local state
 	rm -rf .venv var .pytest_cache .mypy_cache .ruff_cache .import_linter_cache

@@ -14,13 +14,12 @@ from typing import TypeVar
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from benchmarks.cases import CACHE, CASES, VAR, Case, example_airframe
 from benchmarks.console import ConsoleProgress
 from solver.aircraft.airframe import Airframe
 from solver.assess import AssessmentModel, assess_landing
 from solver.assessment import TouchdownRecord
 from solver.inertia_relief.accumulate import PeakAccumulator
-from solver.inertia_relief.build import airframe_damping, reduced_model
+from solver.inertia_relief.build import airframe_damping
 from solver.inertia_relief.free_body import free_body
 from solver.inertia_relief.full_order import BodyLoads, integrate_full_order
 from solver.inertia_relief.loading import assemble
@@ -31,8 +30,11 @@ from solver.inertia_relief.rate_loads import RateLoads
 from solver.inertia_relief.response import NEGLIGIBLE, SWEEP_TOLERANCE, landing_response
 from solver.landing.simulate import SimulationOptions, simulate_landing
 from solver.progress import Progress
+from verification.cases import CASES, Case
+from verification.run import ROOT, Run
 
 REPEATS = 5
+VAR = ROOT / "var"
 Result = TypeVar("Result")
 
 
@@ -129,8 +131,8 @@ def main(arguments: list[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     progress, case = ConsoleProgress(), CASES[0]
     with threadpool_limits(1):
-        airframe = example_airframe(progress)
-        model = AssessmentModel(airframe, reduced_model(airframe, CACHE, progress=progress))
+        run = Run(VAR / "verify", progress=progress)
+        airframe, model = run.airframe, AssessmentModel(run.airframe, run.reduced)
         rates = machine_rates()
         aircraft = airframe.landing_aircraft(case.factors(airframe))
         limited = SimulationOptions(time_limit=options.duration, stop_when_settled=False)

@@ -71,6 +71,9 @@ STYLE: Any = {
     "svg.fonttype": "path",
 }
 
+#: Points of a line beyond which they are drawn small.
+MANY_POINTS = 1000
+
 Stroke = Literal["solid", "dashed", "dotted", "points", "marked"]
 _DASHES: dict[str, Any] = {"dashed": (0, (4, 2)), "dotted": (0, (1, 1.4))}
 
@@ -237,6 +240,9 @@ def _draw_panel(axes: Axes, panel: Panel, colours: dict[str, int]) -> None:
             linestyle=_DASHES.get(line.stroke, "solid"),
             marker="o" if points else "",
             markeredgewidth=0.0,
+            markersize=1.6 if len(line.x) > MANY_POINTS else 3.2,
+            # Thousands of marks as a picture inside the drawing, not as thousands of shapes.
+            rasterized=points and len(line.x) > MANY_POINTS,
         )
     if panel.x_limits is not None:
         axes.set_xlim(*panel.x_limits)
@@ -308,5 +314,5 @@ def _spread(places: list[float], gap: float) -> list[float]:
 def _svg(figure: Figure) -> bytes:
     stream = BytesIO()
     nothing = {"Date": None, "Creator": None, "Format": None, "Type": None}
-    figure.savefig(stream, format="svg", metadata=nothing)
+    figure.savefig(stream, format="svg", metadata=nothing, dpi=200)
     return stream.getvalue()

@@ -1,6 +1,7 @@
 """Figures as they are printed: digits that the tolerance asks for, prefixes, aligned points."""
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, 
 #: Larger prefixes than none say nothing for these.
 _NO_LARGER = frozenset({"m", "s"})
 
+_NUMBER = re.compile(r"[−+-]?\d[\d.]*( ?%| × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -126,7 +128,7 @@ def aligned(columns: Sequence[Sequence[str]]) -> list[list[Cell]]:
 
 
 def _is_number(text: str) -> bool:
-    return bool(text) and (text[0].isdigit() or (text[0] in "−-+" and text[1:2].isdigit()))
+    return _NUMBER.fullmatch(text) is not None
 
 
 def _is_plain(text: str) -> bool:

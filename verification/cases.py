@@ -1,21 +1,15 @@
-"""The example aircraft and the landings that the measurements share."""
+"""Landings of the example aircraft that chapters and benchmarks share."""
 
 from dataclasses import dataclass
 from math import radians
-from pathlib import Path
 
 import numpy as np
 
-from solver.aircraft.airframe import Airframe, load_airframe
-from solver.aircraft.bizjet import build_bizjet
+from solver.aircraft.airframe import Airframe
 from solver.arrays import Array
 from solver.inertia_relief.loads import LandingLoads, landing_loads
 from solver.landing.contact import Contact
 from solver.landing.simulate import SimulationOptions, simulate_landing
-from solver.progress import Progress
-
-VAR = Path("var")
-CACHE = VAR / "verify" / "reduced"
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,10 +88,3 @@ CASES = (
         payload=(0.05, 0.4, 0.9),
     ),
 )
-
-
-def example_airframe(progress: Progress) -> Airframe:
-    """Generate the full-size example aircraft and load it."""
-    folder = VAR / "verify" / "aircraft"
-    build_bizjet(folder, progress=progress)
-    return load_airframe(folder, progress)
