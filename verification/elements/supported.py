@@ -13,12 +13,16 @@ def nothing_fixed(structure: Structure) -> BoolArray:
 
 
 def static(structure: Structure, fixed: BoolArray, loads: Array) -> Array:
-    """Displacements (n, 6) under nodal ``loads`` (n, 6) with the ``fixed`` (n, 6) at rest."""
+    """Displacements (n, 6) under nodal ``loads`` (n, 6) with the ``fixed`` (n, 6) at rest.
+
+    Several loads (n, 6, k) give as many displacements, with one factorisation.
+    """
     moving = np.flatnonzero(~fixed.ravel())
     stiffness = structure.stiffness[moving][:, moving].tocsc()
-    displacement = np.zeros(fixed.size)
-    displacement[moving] = splu(stiffness).solve(loads.ravel()[moving])
-    return displacement.reshape(fixed.shape)
+    columns = loads.reshape(fixed.size, -1)
+    displacement = np.zeros_like(columns)
+    displacement[moving] = splu(stiffness).solve(columns[moving])
+    return displacement.reshape(loads.shape)
 
 
 def prescribed(structure: Structure, known: BoolArray, values: Array) -> Array:

@@ -4,10 +4,10 @@ import dataclasses
 
 import numpy as np
 import pytest
-from scipy.linalg import eigh
 
 from solver.fe.stress import build_stress_recovery
 from solver.fe.structure import build_structure
+from verification.elements import beams
 from verification.elements.meshes import (
     beams_on,
     material,
@@ -15,7 +15,7 @@ from verification.elements.meshes import (
     rectangle_section,
     straight_beam,
 )
-from verification.elements.supported import frequencies, nothing_fixed, static
+from verification.elements.supported import nothing_fixed, static
 
 LENGTH, FORCE = 1.7, 230.0
 SECTION = rectangle_section(0.03, 0.05)
@@ -34,16 +34,11 @@ def tip_load(structure, *values):
     return loads
 
 
-@pytest.mark.parametrize(("component", "inertia"), [(1, SECTION.inertia_1), (2, SECTION.inertia_2)])
-def test_cantilever_deflection_with_shear(component, inertia):
-    """P L^3 / (3 E I) + P L / (K G A), whatever the number of elements."""
-    expected = FORCE * LENGTH**3 / (3 * E * inertia) + FORCE * LENGTH / (5 / 6 * G * SECTION.area)
-    for count in (1, 3):
-        structure = build_structure(straight_beam(LENGTH, count, SECTION))
-        load = np.zeros(6)
-        load[component] = FORCE
-        u = static(structure, clamped(structure), tip_load(structure, *load))
-        assert u[-1, component] == pytest.approx(expected, rel=1e-10)
+@pytest.mark.parametrize("count", [1, 3])
+def test_cantilever_deflection_with_shear(count):
+    """P L^3 / (3 E I) + P L / (K G A), whatever the number of elements; twist and extension too."""
+    for figure in beams.cantilever(count):
+        assert figure.ratio == pytest.approx(1.0, rel=1e-10), figure.case
 
 
 def test_zero_shear_factor_means_no_shear_flexibility():
@@ -163,36 +158,31 @@ def test_free_free_beam_frequencies(offset):
     An offset shared by all ends moves the structure, not its free frequencies; what is left is
     the axial field of the nodes, linear in each element.
     """
-    length = 20.0
-    section = rectangle_section(0.02, 0.02)
-    count = 24 if offset is None else 200
-    structure = build_structure(straight_beam(length, count, section, offset=offset))
-    stiffness = structure.stiffness.toarray()
-    mass = structure.inertia.mass_matrix().toarray()
-    values = eigh(stiffness, mass, eigvals_only=True, subset_by_index=[0, 13])
-    beta = np.array([4.73004, 7.85320, 10.99561, 14.13717]) / length
-    line = E * section.inertia_1 / (material().density * section.area)
-    closed = beta**4 * line
-    bending = np.sort(np.repeat(closed, 2))
+    values, exact = beams.free_beam_eigenvalues(24 if offset is None else 200, offset)
     assert np.all(np.abs(values[:6]) < 1e-5 * values[6])
-    assert np.allclose(np.sqrt(values[6:14]), np.sqrt(bending), rtol=2e-4)
+    assert np.allclose(np.sqrt(values[6:14]), np.sqrt(exact), rtol=2e-4)
+
+
+@pytest.mark.parametrize(
+    ("figures", "order"),
+    [(beams.curved_cantilever, 2.0), (beams.twisted_cantilever, 2.0)],
+    ids=["curved", "twisted"],
+)
+def test_chains_of_straight_beams_converge_to_curved_and_twisted_ones(figures, order):
+    """Closed forms by Castigliano's theorem; the polygon's error falls with its square."""
+    errors = np.array([[abs(f.ratio - 1) for f in figures(count)] for count in (6, 12, 24, 48)])
+    assert errors[-1].max() < 5e-4
+    assert np.allclose(np.log2(errors[:-1] / errors[1:]), order, atol=0.2)
+
+
+def test_published_targets_are_those_of_the_coarse_chain_of_beams():
+    """MacNeal and Harder's 0.08734, 5.424e-3, 1.754e-3: 6 straight beams, 12 turned ones."""
+    assert beams.curved_cantilever(6)[0].computed == pytest.approx(0.08734, rel=2e-4)
+    assert beams.twisted_cantilever(12)[0].computed == pytest.approx(5.424e-3, rel=2e-4)
+    assert beams.twisted_cantilever(12)[1].computed == pytest.approx(1.754e-3, rel=6e-4)
 
 
 def test_timoshenko_beam_frequency():
-    """Simply supported thick beam, n-th mode from Timoshenko's frequency equation.
-
-    (1 + r2 q) (s2 q) ... solved as the quadratic of T. C. Huang, J. Appl. Mech. 28, 1961: with
-    k = n pi / L, rho^2 I / (K G) w^4 - (rho A + rho I k^2 (1 + E/(K G))) w^2 + E I k^4 = 0.
-    """
-    length, section, density = 1.0, rectangle_section(0.1, 0.1), material().density
-    structure = build_structure(straight_beam(length, 60, section))
-    fixed = nothing_fixed(structure)
-    fixed[:, [0, 2, 3, 4]] = True
-    fixed[[0, -1], 1] = True
-    found = 2 * np.pi * frequencies(structure, fixed, 3)
-    shear, inertia, k = 5 / 6 * G, section.inertia_1, np.pi * np.arange(1, 4) / length
-    a = density**2 * inertia / shear
-    b = density * section.area + density * inertia * k**2 * (1 + E / shear)
-    c = E * inertia * k**4
-    exact = np.sqrt((b - np.sqrt(b**2 - 4 * a * c)) / (2 * a))
-    assert np.allclose(found, exact, rtol=2e-3)
+    """Simply supported thick beam, first three modes against Timoshenko's frequency equation."""
+    for figure in beams.thick_beam_frequencies():
+        assert figure.ratio == pytest.approx(1.0, rel=2e-3)
