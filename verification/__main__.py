@@ -14,6 +14,7 @@ from time import perf_counter
 
 from rich.console import Console
 
+from verification import work
 from verification.chapter import Plot
 from verification.chapters import existing, in_starting_order
 from verification.circumstances import facts
@@ -21,7 +22,9 @@ from verification.console import Display, closing_lines
 from verification.outcome import Outcome
 from verification.report import build_document, write_page, write_print
 from verification.run import ROOT, Run
-from verification.work import compute_apart, compute_here
+
+#: Where the chapters are.
+CHAPTERS = work.CHAPTERS
 
 FIGURES = ROOT / "docs" / "figures" / "verification"
 
@@ -72,9 +75,9 @@ def _outcomes(
         run = Run(options.folder, options.quick)
         started = in_starting_order(names)
         if options.processes == 1 or len(names) == 1:
-            found = compute_here(started, run, display)
+            found = work.compute_here(started, run, display, CHAPTERS)
         else:
-            found = compute_apart(started, run, display, options.processes)
+            found = work.compute_apart(started, run, display, options.processes, CHAPTERS)
     by_name = {outcome.name: outcome for outcome in found}
     return [by_name[name] for name in names]
 

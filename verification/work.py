@@ -16,6 +16,9 @@ from verification.chapter import Chapter
 from verification.outcome import Outcome
 from verification.run import Run
 
+#: Where a chapter's module is looked for.
+CHAPTERS = "verification.chapters"
+
 
 class Watcher(Protocol):
     """Who is told how the chapters are getting on."""
@@ -30,7 +33,7 @@ class Watcher(Protocol):
         """Note that a chapter is done, or failed."""
 
 
-def compute_chapter(name: str, run: Run) -> Outcome:
+def compute_chapter(name: str, run: Run, package: str = CHAPTERS) -> Outcome:
     """Compute one chapter; whatever it raises is its outcome."""
     first = len(run.taken)
     start = perf_counter()
@@ -38,7 +41,7 @@ def compute_chapter(name: str, run: Run) -> Outcome:
     failure = ""
     try:
         with threadpool_limits(1):
-            chapter = import_module(f"verification.chapters.{name}").chapter(run)
+            chapter = import_module(f"{package}.{name}").chapter(run)
     except Exception:
         failure = traceback.format_exc()
     airframe = vars(run).get("airframe")
@@ -52,14 +55,16 @@ def compute_chapter(name: str, run: Run) -> Outcome:
     )
 
 
-def compute_here(names: Sequence[str], run: Run, watcher: Watcher) -> list[Outcome]:
+def compute_here(
+    names: Sequence[str], run: Run, watcher: Watcher, package: str = CHAPTERS
+) -> list[Outcome]:
     """Compute chapters one after the other in this process."""
     outcomes = []
     name = ""
     run = replace(run, progress=lambda step, share: watcher.progress(name, step, share))
     for name in names:
         watcher.started(name)
-        outcomes.append(compute_chapter(name, run))
+        outcomes.append(compute_chapter(name, run, package))
         watcher.finished(outcomes[-1])
     return outcomes
 
@@ -71,7 +76,11 @@ class _Worker:
 
 
 def compute_apart(
-    names: Sequence[str], run: Run, watcher: Watcher, processes: int = 2
+    names: Sequence[str],
+    run: Run,
+    watcher: Watcher,
+    processes: int = 2,
+    package: str = CHAPTERS,
 ) -> list[Outcome]:
     """Compute chapters in several processes, each keeping its models from chapter to chapter.
 
@@ -81,7 +90,7 @@ def compute_apart(
     waiting = list(names)
     outcomes: dict[str, Outcome] = {}
     busy: dict[Connection, tuple[_Worker, str, float]] = {}
-    idle = [_worker(run) for _ in range(min(processes, len(waiting)))]
+    idle = [_worker(run, package) for _ in range(min(processes, len(waiting)))]
     try:
         while waiting or busy:
             while waiting and idle:
@@ -98,7 +107,7 @@ def compute_apart(
                     worker.process.join()
                     failure = f"its process ended with exit code {worker.process.exitcode}"
                     message = Outcome(name, None, failure, perf_counter() - start)
-                    worker = _worker(run)
+                    worker = _worker(run, package)
                 if isinstance(message, Outcome):
                     outcomes[name] = message
                     watcher.finished(message)
@@ -113,17 +122,17 @@ def compute_apart(
     return [outcomes[name] for name in names]
 
 
-def _worker(run: Run) -> _Worker:
+def _worker(run: Run, package: str) -> _Worker:
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
     plain = Run(run.folder, run.quick)
-    process = context.Process(target=_work, args=(theirs, plain), daemon=True)
+    process = context.Process(target=_work, args=(theirs, plain, package), daemon=True)
     process.start()
     theirs.close()  # so that the end of the process ends the pipe
     return _Worker(process, ours)
 
 
-def _work(pipe: Connection, settings: Run) -> None:
+def _work(pipe: Connection, settings: Run, package: str) -> None:
     """Compute the chapters whose names come through the pipe."""
     run = replace(settings, progress=_Throttle(lambda *message: pipe.send(message)))
     while True:
@@ -131,7 +140,7 @@ def _work(pipe: Connection, settings: Run) -> None:
             name = pipe.recv()
         except EOFError:
             return
-        pipe.send(compute_chapter(name, run))
+        pipe.send(compute_chapter(name, run, package))
 
 
 class _Throttle:

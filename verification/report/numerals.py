@@ -19,7 +19,7 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A cell of a table; ``hidden`` takes room after the text, so that the points align."""
+    """A cell of a table; the room of ``hidden``, zeros and a point, follows the text unseen."""
 
     text: str
     hidden: str = ""
@@ -122,7 +122,7 @@ def aligned(columns: Sequence[Sequence[str]]) -> list[list[Cell]]:
             digits = tail.rstrip(" %")
             lacks = longest[len(digits) :] if _is_plain(text) and not text.endswith("%") else ""
             number = _is_number(text) or text in ("", "–")
-            cells.append(Cell(text, lacks, number))
+            cells.append(Cell(text, re.sub(r"\d", "0", lacks), number))
         result.append(cells)
     return result
 
