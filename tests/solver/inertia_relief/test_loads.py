@@ -10,7 +10,11 @@ from solver.errors import EquilibriumError, ModelError
 from solver.frames import body_structural
 from solver.inertia_relief.loads import equilibrium_residual, landing_loads
 from solver.landing.history import LandingHistory
-from tests.solver.inertia_relief.bodies import WingedBody, balanced_landing, winged_body
+from verification.inertia_relief.winged_body import (
+    WingedBody,
+    balanced_landing,
+    winged_body,
+)
 
 FACTORS = np.array([0.6, 0.25])
 

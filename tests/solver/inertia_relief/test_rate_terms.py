@@ -3,7 +3,10 @@ import pytest
 
 from solver.fe.inertia import RATE_PRODUCTS
 from solver.inertia_relief.rate_terms import RateTerms
-from tests.solver.inertia_relief.bodies import beam_structure, winged_body
+from verification.inertia_relief.free_beam import beam_structure
+from verification.inertia_relief.winged_body import (
+    winged_body,
+)
 
 
 @pytest.mark.parametrize("kind", ["beam", "winged body"])

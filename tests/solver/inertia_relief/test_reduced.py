@@ -13,7 +13,7 @@ from solver.inertia_relief.loading import assemble
 from solver.inertia_relief.rate_loads import RateLoads
 from solver.inertia_relief.reduced import load_reduced_model
 from solver.inertia_relief.response import landing_response
-from tests.solver.inertia_relief.bodies import (
+from verification.inertia_relief.winged_body import (
     WingedBody,
     balanced_landing,
     full_order_peaks,

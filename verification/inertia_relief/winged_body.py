@@ -1,4 +1,4 @@
-"""Free structures for tests: beams with closed forms, and a small winged body with mass groups."""
+"""A small winged body with mass groups, and balanced landings of it, in any axes."""
 
 import itertools
 from dataclasses import dataclass
@@ -27,33 +27,7 @@ from verification.elements import meshes
 GRAVITY = np.array([0.0, 0.0, -9.80665])
 
 
-def beam_structure(length=2.0, count=40, width=0.05, height=0.04, **options) -> Structure:
-    section = meshes.rectangle_section(width, height)
-    return build_structure(meshes.straight_beam(length, count, section, **options))
-
-
-def point_loads(structure: Structure, loads: dict[tuple[int, int], float]) -> Array:
-    """Load vector from {(node row, component): value}."""
-    total = np.zeros(6 * structure.model.node_count)
-    for (node, component), value in loads.items():
-        total[6 * node + component] = value
-    return structure.transformation.T @ total
-
-
-def bending_stress_to_moment(structure: Structure, stress: Array) -> Array:
-    """Bending moments (m, 2 ends) in the x-z plane from beam stresses (9 m,), closed section."""
-    section = structure.model.beam_properties[1]
-    rows = stress.reshape(-1, 9)
-    z = section.stress_points[:, 1]
-    moments = []
-    for end in range(2):
-        points = rows[:, 4 * end : 4 * end + 4]
-        slope = (points - points.mean(axis=1, keepdims=True)) @ z / (z @ z)
-        moments.append(slope * section.inertia_2)
-    return np.stack(moments, axis=1)
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class WingedBody:
     """A crossed pair of plates with stiffening beams, two tanks, pins and air loads."""
 
@@ -65,21 +39,78 @@ class WingedBody:
 
     @property
     def applied(self) -> Array:
+        """Applied load shapes (n, 6 n_pins + 6), pins before air."""
         return np.hstack([self.pins, self.air])
 
     def body(self, factors: Array) -> FreeBody:
+        """Free body at fill ``factors`` (2,) of the mass groups."""
         return free_body(self.structure, self.inertia(factors))
 
     def inertia(self, factors: Array) -> Inertia:
+        """Inertia at fill ``factors`` (2,)."""
         parts = zip(factors, self.groups, strict=True)
         return combine([(1.0, self.structure.inertia), *parts])
 
 
 def unit_wrench_loads(structure: Structure, inertia: Inertia) -> Array:
-    """Loads (n, 6) distributed as mass is, with unit resultants about the structural origin."""
+    """Spread loads (n, 6) as mass is, with unit resultants about the structural origin."""
     modes = structure.rigid_modes(np.zeros(3))
     spread = inertia.mass_matrix() @ modes
-    return spread @ np.linalg.inv(modes.T @ spread)
+    loads: Array = spread @ np.linalg.inv(modes.T @ spread)
+    return loads
+
+
+#: Half the side of the square fuselage, its length and the span [m].
+HALF, LENGTH, SPAN = 0.9, 12.0, 14.0
+
+
+class _Mesh:
+    """Nodes, quadrilaterals and beams of the body, collected face by face."""
+
+    def __init__(self, across: int, along: int) -> None:
+        self._rows: dict[tuple[float, float, float], int] = {}
+        self.x = np.linspace(0.0, LENGTH, along + 1)
+        self.wing_x = self.x[along // 2 : along // 2 + 3]
+        self.quads: list[list[int]] = []
+        self.beams: list[list[int]] = []
+        self._fuselage()
+        stations = np.linspace(-SPAN / 2, SPAN / 2, across + 1)
+        for side in (-1, 1):
+            outboard = sorted((v for v in stations if v * side > HALF + 1e-9), key=abs)
+            self._wing([side * HALF, *outboard])
+        walls = ((-HALF, -HALF), (HALF, -HALF), (HALF, HALF), (-HALF, HALF))
+        for end in (0.0, LENGTH):
+            self.quads.append([self.node(end, y, z) for y, z in walls])
+
+    def node(self, x: float, y: float, z: float) -> int:
+        """Row of the node there, new or known."""
+        place = (round(float(x), 6), round(float(y), 6), round(float(z), 6))
+        return self._rows.setdefault(place, len(self._rows))
+
+    @property
+    def points(self) -> Array:
+        """Positions (n, 3) of the nodes collected so far [m]."""
+        return np.array(list(self._rows))
+
+    def _fuselage(self) -> None:
+        corners = [(-HALF, -HALF), (HALF, -HALF), (HALF, HALF), (-HALF, HALF), (-HALF, -HALF)]
+        for a, b in itertools.pairwise(self.x):
+            for (p, q), (r, s) in itertools.pairwise(corners):
+                at = [(a, p, q), (b, p, q), (b, r, s), (a, r, s)]
+                rows = [self.node(*place) for place in at]
+                self.quads.append(rows)
+                self.beams.append(rows[:2])
+
+    def _wing(self, line: list[float]) -> None:
+        for a, b in itertools.pairwise(line):
+            for f, g in itertools.pairwise(self.wing_x):
+                at = [(f, a), (g, a), (g, b), (f, b)]
+                self.quads.append([self.node(x, y, -HALF) for x, y in at])
+            self.beams += [[self.node(f, a, -HALF), self.node(f, b, -HALF)] for f in self.wing_x]
+
+
+def _nearest(points: Array, place: Array) -> int:
+    return int(np.argmin(np.linalg.norm(points - place, axis=1)))
 
 
 def winged_body(
@@ -91,56 +122,24 @@ def winged_body(
     """
     turn = np.eye(3) if turn is None else turn
     shift = np.zeros(3) if shift is None else shift
-    length, span = 12.0, 14.0
-    x = np.linspace(0.0, length, along + 1)
-    y = np.linspace(-span / 2, span / 2, across + 1)
-    nodes: dict[tuple[float, float, float], int] = {}
-
-    def node(px: float, py: float, pz: float) -> int:
-        return nodes.setdefault((round(px, 6), round(py, 6), round(pz, 6)), len(nodes))
-
-    quads, beams = [], []
-    half = 0.9
-    for a, b in itertools.pairwise(x):  # fuselage: a box of four walls
-        for (p, q), (r, s) in [
-            ((-half, -half), (half, -half)),
-            ((half, -half), (half, half)),
-            ((half, half), (-half, half)),
-            ((-half, half), (-half, -half)),
-        ]:
-            quads.append([node(a, p, q), node(b, p, q), node(b, r, s), node(a, r, s)])
-            beams.append([node(a, p, q), node(b, p, q)])
-    wing_x = [x[along // 2], x[along // 2 + 1], x[along // 2 + 2]]
-    stations = [v for v in y if abs(v) > half + 1e-9]
-    for side in (-1, 1):
-        line = [side * half, *sorted((v for v in stations if v * side > 0), key=abs)]
-        for a, b in itertools.pairwise(line):
-            for f, g in itertools.pairwise(wing_x):
-                quads.append(
-                    [node(f, a, -half), node(g, a, -half), node(g, b, -half), node(f, b, -half)]
-                )
-            for f in wing_x:
-                beams.append([node(f, a, -half), node(f, b, -half)])
-    for ends in (0.0, length):  # closing walls
-        quads.append(
-            [
-                node(ends, -half, -half),
-                node(ends, half, -half),
-                node(ends, half, half),
-                node(ends, -half, half),
-            ]
-        )
-    points = np.array(list(nodes)) @ turn.T + shift
-    tips = [min(nodes, key=lambda n, s=s: (-s * n[1], abs(n[0] - wing_x[1]))) for s in (-1, 1)]
+    mesh = _Mesh(across, along)
+    at_wing = mesh.wing_x[1]
+    corners = [
+        mesh.node(at_wing, -HALF, -HALF),
+        mesh.node(at_wing, HALF, -HALF),
+        mesh.node(mesh.x[1], -HALF, -HALF),
+    ]
+    ends = [mesh.node(0.0, HALF, HALF), mesh.node(LENGTH, -HALF, HALF)]
+    straight = mesh.points
     model: FiniteElementModel = meshes.model(
-        points,
-        quads=np.array(quads),
-        beams=meshes.beams_on(np.array(beams), orientation=turn @ [0.0, 0.3, 1.0]),
+        straight @ turn.T + shift,
+        quads=np.array(mesh.quads),
+        beams=meshes.beams_on(np.array(mesh.beams), orientation=turn @ [0.0, 0.3, 1.0]),
         section=meshes.rectangle_section(0.10, 0.30),
         thickness=0.004,
         shell_mass=6.0,
         masses=meshes.lumped(
-            [node(0.0, half, half), node(length, -half, half)],
+            ends,
             [300.0, 450.0],
             offsets=np.array([[-0.2, 0.0, 0.1], [0.3, 0.2, 0.0]]) @ turn.T,
             inertias=[turn @ np.diag(d) @ turn.T for d in ([20.0, 50.0, 60.0], [90.0, 40.0, 70.0])],
@@ -148,18 +147,13 @@ def winged_body(
     )
     structure = build_structure(model)
     groups = []
-    for tip, mass in zip(tips, (260.0, 240.0), strict=True):
-        row = nodes[tip]
-        inboard = nodes[min(nodes, key=lambda n, t=tip: np.hypot(n[0] - t[0], n[1] - 0.6 * t[1]))]
+    for side, mass in ((-1, 260.0), (1, 240.0)):
+        tip = np.array([at_wing, side * SPAN / 2, -HALF])
+        rows = [_nearest(straight, tip), _nearest(straight, tip * [1.0, 0.6, 1.0])]
         offsets = [turn @ [0.1, 0.0, 0.1]] * 2
-        masses = meshes.lumped([row, inboard], [mass, 2 * mass], offsets=offsets)
+        masses = meshes.lumped(rows, [mass, 2 * mass], offsets=offsets)
         groups.append(point_mass_inertia(structure.transformation, model.coordinates, masses))
-    corner = [
-        node(wing_x[1], -half, -half),
-        node(wing_x[1], half, -half),
-        node(x[1], -half, -half),
-    ]
-    pins = structure.nodal_loads(np.array(corner)).toarray()
+    pins = structure.nodal_loads(np.array(corners)).toarray()
     air = unit_wrench_loads(structure, structure.inertia)
     return WingedBody(structure, tuple(groups), build_stress_recovery(structure), pins, air)
 
@@ -169,7 +163,7 @@ def balanced_landing(
 ) -> LandingLoads:
     """Arbitrary smooth pin and air loads with the rigid motion that they cause (Newton, Euler)."""
     rng = np.random.default_rng(seed)
-    time = np.arange(round(duration / step) + 1) * step
+    time = np.arange(round(duration / step) + 1, dtype=np.float64) * step
     properties = winged.inertia(factors).rigid_body_properties()
     pins = winged.pins.shape[1]
 

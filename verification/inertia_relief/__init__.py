@@ -1,0 +1,1 @@
+"""Free bodies with closed forms, and what extended inertia relief makes of them."""
