@@ -27,6 +27,7 @@ from verification.run import ROOT, Run
 CHAPTERS = work.CHAPTERS
 
 FIGURES = ROOT / "docs" / "figures" / "verification"
+PAPER = b'<rect width="100%" height="100%" fill="#ffffff"/>'
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -90,7 +91,11 @@ def write_figures(outcomes: Sequence[Outcome], folder: Path) -> None:
             continue
         for item in outcome.chapter.items:
             if isinstance(item, Plot):
-                (folder / f"{item.name}.{item.format}").write_bytes(item.image)
+                # Drawings are transparent; pages of docs may be dark.
+                image = item.image
+                if item.format == "svg":
+                    image = image.replace(b"<defs>", PAPER + b"<defs>", 1)
+                (folder / f"{item.name}.{item.format}").write_bytes(image)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import multiprocessing
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from importlib import import_module
 from multiprocessing.connection import Connection, wait
@@ -95,7 +96,8 @@ def compute_apart(
         while waiting or busy:
             while waiting and idle:
                 worker, name = idle.pop(), waiting.pop(0)
-                worker.pipe.send(name)
+                with suppress(OSError):  # of a dead process, which receiving finds out
+                    worker.pipe.send(name)
                 busy[worker.pipe] = (worker, name, perf_counter())
                 watcher.started(name)
             for pipe in wait(list(busy)):
@@ -103,7 +105,7 @@ def compute_apart(
                 worker, name, start = busy[pipe]
                 try:
                     message = pipe.recv()
-                except EOFError:
+                except (EOFError, OSError):
                     worker.process.join()
                     failure = f"its process ended with exit code {worker.process.exitcode}"
                     message = Outcome(name, None, failure, perf_counter() - start)

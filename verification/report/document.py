@@ -2,24 +2,26 @@
 
 import string
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from verification.chapter import Comparisons, Plot, Table, Text
+from verification.chapter import Comparisons, Item, Plot, Table, Text
 from verification.comparison import Comparison
 from verification.outcome import Outcome
 from verification.report.numerals import Cell, aligned, compared, duration, share
 
 #: A bar that shows the used part of a tolerance ends here.
 FULL = 1.0
+#: Digits of the list of all comparisons, at most.
+DIGITS = 5
 
 
 @dataclass(frozen=True, slots=True)
 class ComparisonRow:
     """A comparison as it is printed."""
 
-    chapter: int
+    table: str  #: number of its table, "3.2"
     name: str
     note: str  #: letter of the note on target and tolerance
     cells: tuple[Cell, ...]  #: found, target, unit, difference, tolerance
@@ -49,7 +51,7 @@ class TextBlock:
 class ComparisonBlock:
     """A table of compared figures."""
 
-    number: str
+    number: str  #: "3.2"
     title: str
     rows: tuple[ComparisonRow, ...]
     notes: tuple[Note, ...]
@@ -132,8 +134,10 @@ def build_document(outcomes: Sequence[Outcome], facts: Sequence[tuple[str, str]]
     ranked = sorted(
         (
             (row, number)
-            for number, outcome in enumerate(outcomes, 1)
-            for row in outcome.comparisons
+            for chapter, outcome in enumerate(outcomes, 1)
+            for item, number in _numbered(chapter, outcome)
+            if isinstance(item, Comparisons)
+            for row in item.rows
         ),
         key=lambda pair: -pair[0].used,
     )
@@ -143,7 +147,9 @@ def build_document(outcomes: Sequence[Outcome], facts: Sequence[tuple[str, str]]
         holds=all(outcome.holds for outcome in outcomes),
         facts=tuple(facts),
         sections=tuple(_section(number, outcome) for number, outcome in enumerate(outcomes, 1)),
-        rows=_comparison_rows([row for row, _ in ranked], [number for _, number in ranked], {}),
+        rows=_comparison_rows(
+            [row for row, _ in ranked], [number for _, number in ranked], {}, DIGITS
+        ),
         images={_file(plot): plot.image for plot in plots},
     )
 
@@ -183,23 +189,31 @@ def _section(number: int, outcome: Outcome) -> Section:
     )
 
 
-def _blocks(chapter: int, outcome: Outcome) -> tuple[Block, ...]:
-    blocks: list[Block] = []
+def _numbered(chapter: int, outcome: Outcome) -> Iterator[tuple[Item, str]]:
+    """Items of a chapter with their numbers; tables and figures are counted apart."""
     tables = figures = 0
     for item in () if outcome.chapter is None else outcome.chapter.items:
+        if isinstance(item, Plot):
+            figures += 1
+            yield item, f"{chapter}.{figures}"
+        elif isinstance(item, Text):
+            yield item, ""
+        else:
+            tables += 1
+            yield item, f"{chapter}.{tables}"
+
+
+def _blocks(chapter: int, outcome: Outcome) -> tuple[Block, ...]:
+    blocks: list[Block] = []
+    for item, number in _numbered(chapter, outcome):
         if isinstance(item, Text):
             blocks.append(TextBlock(item.words))
         elif isinstance(item, Plot):
-            figures += 1
-            number = f"Figure {chapter}.{figures}"
             blocks.append(PlotBlock(number, item.name, item.caption, _file(item)))
+        elif isinstance(item, Comparisons):
+            blocks.append(_comparison_block(number, item))
         else:
-            tables += 1
-            number = f"Table {chapter}.{tables}"
-            if isinstance(item, Comparisons):
-                blocks.append(_comparison_block(chapter, number, item))
-            else:
-                blocks.append(_table_block(number, item))
+            blocks.append(_table_block(number, item))
     return tuple(blocks)
 
 
@@ -207,14 +221,14 @@ def _file(plot: Plot) -> str:
     return f"{plot.name}.{plot.format}"
 
 
-def _comparison_block(chapter: int, number: str, item: Comparisons) -> ComparisonBlock:
+def _comparison_block(number: str, item: Comparisons) -> ComparisonBlock:
     letters: dict[tuple[str, str], str] = {}
     for row in item.rows:
         letters.setdefault((row.source, row.reason), _letter(len(letters)))
     return ComparisonBlock(
         number=number,
         title=item.title,
-        rows=_comparison_rows(item.rows, [chapter] * len(item.rows), letters),
+        rows=_comparison_rows(item.rows, [number] * len(item.rows), letters),
         notes=tuple(Note(letter, *texts) for texts, letter in letters.items()),
     )
 
@@ -225,9 +239,12 @@ def _letter(index: int) -> str:
 
 
 def _comparison_rows(
-    rows: Sequence[Comparison], chapters: Sequence[int], letters: dict[tuple[str, str], str]
+    rows: Sequence[Comparison],
+    tables: Sequence[str],
+    letters: dict[tuple[str, str], str],
+    most_digits: int = 9,
 ) -> tuple[ComparisonRow, ...]:
-    figures = [compared(row) for row in rows]
+    figures = [compared(row, most_digits) for row in rows]
     columns = aligned(
         [
             [figure.found for figure in figures],
@@ -239,7 +256,7 @@ def _comparison_rows(
     )
     return tuple(
         ComparisonRow(
-            chapter=chapter,
+            table=table,
             name=row.name,
             note=letters.get((row.source, row.reason), ""),
             cells=cells,
@@ -247,7 +264,7 @@ def _comparison_rows(
             bar=min(row.used, FULL),
             holds=row.holds,
         )
-        for row, chapter, cells in zip(rows, chapters, zip(*columns, strict=True), strict=True)
+        for row, table, cells in zip(rows, tables, zip(*columns, strict=True), strict=True)
     )
 
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 from verification.comparison import Comparison
 
-#: Units that take a prefix, and the prefixes tried, largest first.
-_PREFIXED = frozenset({"N", "Pa", "J", "W", "Hz", "N m", "N/m", "N m/rad", "m", "s"})
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-#: Larger prefixes than none say nothing for these.
-_NO_LARGER = frozenset({"m", "s"})
+#: Prefixes that a unit takes, largest first.
+_LARGE = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
+_SMALL = ((1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+_PREFIXES = dict.fromkeys(("N", "Pa", "J", "W", "N m", "N/m", "N m/rad"), _LARGE) | dict.fromkeys(
+    ("m", "s"), _SMALL
+)
 
 _NUMBER = re.compile(r"[−+-]?\d[\d.]*( ?%| × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -37,20 +38,20 @@ class ComparedFigures:
     tolerance: str
 
 
-def compared(row: Comparison) -> ComparedFigures:
+def compared(row: Comparison, most_digits: int = 9) -> ComparedFigures:
     """Print a comparison with as many digits as its tolerance can tell apart."""
     if row.target == 0:
         return ComparedFigures(
             short(row.found, 3),
             "0",
-            row.unit,
+            _typeset(row.unit),
             *(_difference(x, row) for x in (row.difference, row.tolerance)),
         )
     size = max(abs(row.target), abs(row.found)) if math.isfinite(row.found) else abs(row.target)
     factor, unit = _prefixed(size, row.unit)
     scale = abs(row.target) if row.scale is None else row.scale
     finest = row.tolerance * scale
-    decimals = _decimals(size / factor, finest / factor)
+    decimals = _decimals(size / factor, finest / factor, most_digits)
     return ComparedFigures(
         found=fixed(row.found / factor, decimals),
         target=fixed(row.target / factor, decimals),
@@ -66,8 +67,9 @@ def fixed(value: float, decimals: int) -> str:
         return "not a number" if math.isnan(value) else ("∞" if value > 0 else "−∞")
     if value == 0:
         return "0"
-    if abs(value) >= 1e7 or (decimals > 9 and abs(value) < 1e-3):
-        return power_of_ten(value)
+    if abs(value) >= 1e7 or abs(value) < 1e-3:
+        lead = math.floor(math.log10(abs(value)))
+        return power_of_ten(value, min(max(lead + decimals + 1, 2), 9))
     return f"{value:.{min(decimals, 9)}f}".replace("-", "−")
 
 
@@ -137,26 +139,29 @@ def _is_plain(text: str) -> bool:
 
 
 def _prefixed(size: float, unit: str) -> tuple[float, str]:
-    if unit not in _PREFIXED or size == 0:
-        return 1.0, unit
-    for factor, prefix in _PREFIXES:
-        if unit in _NO_LARGER and factor > 1:
-            continue
+    for factor, prefix in _PREFIXES.get(unit, ()):
         if size >= factor * 0.9999999:
-            return factor, prefix + unit
-    return 1.0, unit
+            return factor, prefix + _typeset(unit)
+    return 1.0, _typeset(unit)
 
 
-def _decimals(size: float, finest: float) -> int:
-    """Decimals that show a tenth of the finest difference, three digits at least, nine at most."""
+def _typeset(unit: str) -> str:
+    """Raise the exponents; "1" is no unit."""
+    if unit == "1":
+        return ""
+    return re.sub(r"(?<=[a-z])-?\d", lambda found: found.group().translate(_RAISED), unit)
+
+
+def _decimals(size: float, finest: float, most_digits: int) -> int:
+    """Decimals that show a tenth of the finest difference, with three digits at least."""
     if size == 0 or not math.isfinite(size):
         return 3
     lead = math.floor(math.log10(size))
-    digits = 9 if finest == 0 else math.ceil(lead - math.log10(finest)) + 2
-    return max(0, min(max(digits, 3), 9) - 1 - lead)
+    digits = most_digits if finest == 0 else math.ceil(lead - math.log10(finest)) + 2
+    return max(0, min(max(digits, 3), most_digits) - 1 - lead)
 
 
 def _difference(value: float, row: Comparison) -> str:
     if row.is_relative:
         return share(value)
-    return f"{short(value)} {row.unit}".rstrip()
+    return f"{short(value)} {_typeset(row.unit)}".rstrip()

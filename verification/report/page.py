@@ -13,7 +13,9 @@ from verification.report.document import Document
 TEMPLATES = Path(__file__).parent
 
 #: Inks of the plots that the page exchanges with its own, so that they suit a dark page.
-_INKS = {plots.INK: "var(--ink)", plots.FAINT: "var(--faint)", plots.GRID: "var(--grid)"}
+_INKS = {plots.INK: "var(--ink)", plots.FAINT: "var(--faint)", plots.GRID: "var(--grid)"} | {
+    colour: f"var(--c{index})" for index, colour in enumerate(plots.COLOURS)
+}
 
 
 def write_page(document: Document, path: Path) -> None:
