@@ -4,7 +4,7 @@ import numba
 import numpy as np
 
 from solver.arrays import Array
-from solver.flexible_landing.equations import turning_inertia
+from solver.flexible_landing.equations import turning_airframe
 from solver.flexible_landing.fitting import put_rotation
 from solver.flexible_landing.modal_record import Modes
 from solver.landing.equations import AIRFRAME_STATES, GEAR_STATES, WORK_STATES, body_to_earth
@@ -31,9 +31,9 @@ def energies(
     q, velocity = state[first : first + size], state[first + size :]
     rate = (state[10], state[11], state[12])
     result[:] = 0.0
-    inertia, _, relative, _, _, _ = turning_inertia(airframe, modes, q, velocity)
+    turning = turning_airframe(airframe, modes, q, velocity)
     kinetic = 0.5 * airframe.mass * (state[7] ** 2 + state[8] ** 2 + state[9] ** 2)
-    kinetic += 0.5 * dot(rate, turned(inertia, rate)) + dot(rate, vector(relative))
+    kinetic += 0.5 * dot(rate, turned(turning.inertia, rate)) + dot(rate, vector(turning.momentum))
     kinetic += 0.5 * np.sum(velocity**2)
     turn = body_to_earth(state)
     below = (turn[2, 0], turn[2, 1], turn[2, 2])

@@ -10,14 +10,14 @@ fittings, Lagrange's equations of
 are
 
     m a_O                       = m g + P_f                           + sum E_f' F_g
-    J(q) w' + 1/2 (G q) . q''   = P_m - J' w - w x (J w + h)          + sum E_m' F_g
-    q'' + 1/2 (G_k q) w_k'      = -Omega^2 q - D q' + L_ij p_ij - w_k G_k q' - p_ij C_ij q
+    J(q) w' + (B q) . q''       = P_m - J' w - q' . B q' - w x (J w + h) + sum E_m' F_g
+    q'' + (B_k q) w_k'          = -Omega^2 q - D q' + L_ij p_ij - w_k (B_k - B_k') q' - p_ij C_ij q
                                   + P_q                               + sum Psi' T' F_g
 
-with L the load of the rate products, G the Coriolis and C the centrifugal operators, and
+with L the load of the rate products, B the Euler and C the centrifugal operators, and
 
     J_ii = J_0,ii + 2 L_ii . q - q . C_ii q,   J_ij = J_0,ij + L_ij . q - q . C_ij q / 2,
-    h_k = -q . G_k q' / 2
+    h_k = q' . B_k q
 
 (Lee et al., eq (15), with the inertia of the deformed body, so that momentum and energy are those
 of one Lagrangian and are conserved).  `solver.flexible_landing.coupling` brings in the gears, with
@@ -26,6 +26,8 @@ the kernels of `solver.landing`.
 State vector: that of `solver.landing.equations`, then the energy lost in the structure, the m modal
 coordinates and their m velocities.
 """
+
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -47,21 +49,36 @@ def rate_products(rate: Vector) -> Array:
     return np.array([x * x, y * y, z * z, x * y, x * z, y * z])
 
 
+class Turning(NamedTuple):
+    """How the deformed airframe turns, at one instant; body axes."""
+
+    inertia: Array  #: J(q) (3, 3)
+    inertia_rate: Array  #: (3, 3)
+    momentum: Array  #: h (3,) angular momentum of the elastic motion alone
+    bias: Array  #: (3,) of its rate, what no second derivative multiplies
+    coupling: Array  #: B q (3, m)
+    gyroscopic: Array  #: (B - B') q' (3, m)
+    centrifugal: Array  #: C q (6, m)
+
+
 @numba.njit(cache=True)
-def turning_inertia(
-    airframe: Record, modes: Modes, q: Array, velocity: Array
-) -> tuple[Array, Array, Array, Array, Array, Array]:
-    """Inertia J(q) (3, 3), its rate, relative angular momentum h (3,), and G q, G q', C q."""
+def turning_airframe(airframe: Record, modes: Modes, q: Array, velocity: Array) -> Turning:
+    """Inertia and angular momentum at modal coordinates ``q`` and their ``velocity``."""
     size = q.size
-    on_q, on_velocity = np.zeros(9 * size), np.zeros(3 * size)
+    on_q, gyroscopic = np.zeros(9 * size), np.zeros((3, size))
+    momentum, bias = np.zeros(3), np.zeros(3)
     if modes.rates.shape[0] > 0:
         on_q[:] = modes.rates @ q
-        on_velocity[:] = modes.rates[: 3 * size] @ velocity
-    coriolis_q = on_q[: 3 * size].reshape(3, size)
-    coriolis_v = on_velocity.reshape(3, size)
-    centrifugal_q = on_q[3 * size :].reshape(6, size)
+        for k in range(3):
+            operator = modes.rates[k * size : (k + 1) * size]
+            on_velocity = operator @ velocity
+            gyroscopic[k] = on_velocity - velocity @ operator
+            bias[k] = np.sum(velocity * on_velocity)
+            momentum[k] = np.sum(velocity * on_q[k * size : (k + 1) * size])
+    coupling = on_q[: 3 * size].reshape(3, size)
+    centrifugal = on_q[3 * size :].reshape(6, size)
     linear, linear_rate = modes.products @ q, modes.products @ velocity
-    square, square_rate = centrifugal_q @ q, centrifugal_q @ velocity
+    square, square_rate = centrifugal @ q, centrifugal @ velocity
     inertia, inertia_rate = airframe.inertia.copy(), np.zeros((3, 3))
     for i in range(3):
         inertia[i, i] += 2.0 * linear[i] - square[i]
@@ -72,8 +89,7 @@ def turning_inertia(
         inertia[i, k] += change
         inertia[k, i] += change
         inertia_rate[i, k] = inertia_rate[k, i] = growth
-    relative = -0.5 * (coriolis_v @ q)
-    return inertia, inertia_rate, relative, coriolis_q, coriolis_v, centrifugal_q
+    return Turning(inertia, inertia_rate, momentum, bias, coupling, gyroscopic, centrifugal)
 
 
 @numba.njit(cache=True)
@@ -122,25 +138,23 @@ def evaluate(
     velocity = turned(turn.T, (state[7], state[8], state[9]))
     gravity = scaled(airframe.gravity, below)
     products = rate_products(rate)
-    inertia, inertia_rate, relative, coriolis_q, coriolis_v, centrifugal_q = turning_inertia(
-        airframe, modes, q, q_rate
-    )
+    turning = turning_airframe(airframe, modes, q, q_rate)
     lifting, braking, lift_power, lost_power = air_wrenches(
         time, airframe, course, velocity, rate, below
     )
     air = lifting + braking
 
     body, load = np.zeros((6, 6)), air.copy()
-    body[3:, 3:] = inertia
-    momentum = add(turned(inertia, rate), vector(relative))
-    turning = add(turned(inertia_rate, rate), cross(rate, momentum))
+    body[3:, 3:] = turning.inertia
+    momentum = add(turned(turning.inertia, rate), vector(turning.momentum))
+    carried = add(turned(turning.inertia_rate, rate), cross(rate, momentum))
     for i in range(3):
         body[i, i] = airframe.mass
         load[i] += airframe.mass * gravity[i]
-        load[3 + i] -= turning[i]
+        load[3 + i] -= carried[i] + turning.bias[i]
     elastic = -modes.stiffness * q - modes.damping * q_rate
     elastic += products @ modes.products + air @ modes.air
-    elastic -= np.array(rate) @ coriolis_v + products @ centrifugal_q
+    elastic -= np.array(rate) @ turning.gyroscopic + products @ turning.centrifugal
 
     fittings = fittings_and_gears(
         state,
@@ -154,7 +168,7 @@ def evaluate(
         gravity,
         gear_answers,
     )
-    accelerations, modal, moving = solve(body, load, 0.5 * coriolis_q, elastic, modes, fittings)
+    accelerations, modal, moving = solve(body, load, turning.coupling, elastic, modes, fittings)
     finish_gears(state, gears, fittings, moving, gear_answers, derivative)
     acceleration, rate_derivative = vector(accelerations[:3]), vector(accelerations[3:])
     put(answer.acceleration, acceleration)

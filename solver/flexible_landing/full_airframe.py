@@ -41,7 +41,7 @@ def modes_of_loading(loading: "ReducedLoading", aircraft: LandingAircraft) -> Fl
         frequency.copy(),
         np.asarray(model.applied.T @ shapes),
         (loading.inertia[:, 6:].T @ shapes),
-        rates[:3],
+        rates[3:6],
         rates[6:],
         model.damping,
     )
@@ -70,7 +70,7 @@ def modes_of_structure(
     _, rates = projected_inertia(inertia, shapes)
     products = inertia.rigid_load_shapes(aircraft.centre_of_gravity)[:, 6:].T @ shapes
     return flexible_airframe(
-        aircraft, frequency, applied.T @ shapes, products, rates[:3], rates[6:], damping
+        aircraft, frequency, applied.T @ shapes, products, rates[3:6], rates[6:], damping
     )
 
 
@@ -97,4 +97,10 @@ def dense_modes(structure: "Structure", inertia: "Inertia") -> tuple[Array, Arra
         raise ModelError(
             f"the structure has not six rigid modes: eigenvalues {squared[:8].round(3).tolist()}"
         )
-    return np.sqrt(squared[6:]), body.mean_axis(shapes[:, 6:])
+    elastic = body.mean_axis(shapes[:, 6:])
+    # The slow modes set the rounding of the fast ones; two steps of Newton and Schulz towards the
+    # nearest orthonormal set take it out.
+    for _ in range(2):
+        product = elastic.T @ (body.mass @ elastic)
+        elastic = elastic @ (1.5 * np.eye(len(product)) - 0.5 * product)
+    return np.sqrt(squared[6:]), elastic

@@ -18,7 +18,7 @@ class Modes(NamedTuple):
     mobility: Array  #: (6 n, 6 n) accelerations of all fittings to unit wrenches on each
     air: Array  #: (6, m)
     products: Array  #: (6, m)
-    rates: Array  #: (9 m, m) gyroscopic, then centrifugal; without rows if left out
+    rates: Array  #: (9 m, m) Euler, then centrifugal; without rows if left out
     pivots: Array  #: (n, 3) of the undeformed airframe [m]
 
 
@@ -28,7 +28,7 @@ def compiled_modes(flexible: FlexibleAirframe, gears: Records) -> tuple[Modes, R
     fittings = np.ascontiguousarray(flexible.fittings.reshape(-1, size))
     local = gears.copy()
     local["pivot"] = 0.0
-    rates = np.concatenate([flexible.gyroscopic, flexible.centrifugal]).reshape(-1, size)
+    rates = np.concatenate([flexible.euler, flexible.centrifugal]).reshape(-1, size)
     modes = Modes(
         flexible.circular_frequency**2,
         np.ascontiguousarray(flexible.damping),

@@ -30,7 +30,7 @@ class FlexibleAirframe:
         T = m v^2 / 2 + w . J(q) w / 2 + w . h(q, q') + q' . q' / 2,
 
     where J(q) = J_0 + J_1(q) + J_2(q, q).  ``products`` holds J_1, ``centrifugal`` J_2 and
-    ``gyroscopic`` h (see `solver.flexible_landing.equations`).
+    ``euler`` h (see `solver.flexible_landing.equations`).
     """
 
     circular_frequency: Array  #: (m,) [rad/s]
@@ -38,7 +38,7 @@ class FlexibleAirframe:
     fittings: Array  #: (n_gears, 6, m) translation and rotation of each fitting at its pivot
     air: Array  #: (6, m) modal loads of a unit air force and moment about the centre of gravity
     products: Array  #: (6, m) modal loads of the rate products xx, yy, zz, xy, xz, yz
-    gyroscopic: Array  #: (3, m, m) skew, Coriolis; without rows: terms of second order left out
+    euler: Array  #: (3, m, m) on rate derivatives; without rows: terms of second order left out
     centrifugal: Array  #: (6, m, m) symmetric; without rows: as above
 
     @property
@@ -57,7 +57,7 @@ class FlexibleAirframe:
     def without_second_order(self) -> "FlexibleAirframe":
         """Without the terms in which displacement or velocity multiplies the body rate."""
         none = np.zeros((0, self.size, self.size))
-        return replace(self, gyroscopic=none, centrifugal=none)
+        return replace(self, euler=none, centrifugal=none)
 
     def transformed(self, basis: Array, damping: RayleighDamping) -> "FlexibleAirframe":
         """Express it in a ``basis`` (m, k), mass-orthonormal and diagonal in the stiffness."""
@@ -68,7 +68,7 @@ class FlexibleAirframe:
             fittings=self.fittings @ basis,
             air=self.air @ basis,
             products=self.products @ basis,
-            gyroscopic=basis.T @ self.gyroscopic @ basis,
+            euler=basis.T @ self.euler @ basis,
             centrifugal=basis.T @ self.centrifugal @ basis,
         )
 
@@ -104,7 +104,7 @@ def flexible_airframe(
     circular_frequency: Array,
     applied: Array,
     products: Array,
-    gyroscopic: Array,
+    euler: Array,
     centrifugal: Array,
     damping: RayleighDamping,
 ) -> FlexibleAirframe:
@@ -121,7 +121,7 @@ def flexible_airframe(
         air resultants about the structural origin.
     products : (6, m) array
         Modal loads of the rate products, see `Inertia.rigid_load_shapes`.
-    gyroscopic, centrifugal : (3, m, m) and (6, m, m) arrays
+    euler, centrifugal : (3, m, m) and (6, m, m) arrays
         See `Inertia`.
     """
     signs = BODY_STRUCTURAL
@@ -137,7 +137,6 @@ def flexible_airframe(
     resultants = np.zeros((6, 6))
     resultants[:3, :3] = resultants[3:, 3:] = np.diag(signs)
     resultants[3:, :3] = skew(aircraft.centre_of_gravity) @ np.diag(signs)
-    skewed = (gyroscopic - gyroscopic.transpose(0, 2, 1)) / 2
     symmetric = (centrifugal + centrifugal.transpose(0, 2, 1)) / 2
     coefficients = damping.mass_coefficient, damping.stiffness_coefficient
     return FlexibleAirframe(
@@ -146,6 +145,6 @@ def flexible_airframe(
         fittings=np.stack(fittings),
         air=resultants.T @ applied[first:],
         products=pairs[:, None] * products,
-        gyroscopic=signs[:, None, None] * skewed,
+        euler=signs[:, None, None] * euler,
         centrifugal=pairs[:, None, None] * symmetric,
     )
