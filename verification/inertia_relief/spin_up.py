@@ -237,3 +237,13 @@ def root_driven_segments(ramp: Ramp, time: Array, segments: int = 40) -> TipMoti
 def steady_extension(rate: float, beam: UniformBeam = SIMO_BEAM) -> float:
     """Extension rho A w^2 L^3 / (3 E A) of the spinning root-driven beam [m]."""
     return beam.density * rate**2 * HALF**3 / (3 * beam.axial)
+
+
+def cantilever_frequency(beam: UniformBeam = SIMO_BEAM) -> float:
+    """Lowest frequency of the beam clamped at its root, cos(b) cosh(b) = -1 [rad/s]."""
+    return float(1.8751040687**2 * np.sqrt(beam.bending / beam.density) / HALF**2)
+
+
+def driven_frequency(beam: UniformBeam = SIMO_BEAM) -> float:
+    """Lowest antisymmetric frequency of the free beam, tan(b / 2) = tanh(b / 2) [rad/s]."""
+    return float(7.8532046241**2 * np.sqrt(beam.bending / beam.density) / (2 * HALF) ** 2)
