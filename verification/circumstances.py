@@ -5,7 +5,7 @@ import platform
 import subprocess
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import PackageNotFoundError, distributions, version
 from pathlib import Path
 
 from verification.outcome import Outcome
@@ -14,11 +14,13 @@ from verification.run import ROOT
 
 #: Libraries whose versions the report states.
 LIBRARIES = ("numpy", "scipy", "numba", "matplotlib", "typst")
+#: Independent codes, where they are installed.
+PEERS = ("exudyn", "KratosMultiphysics")
 
 
 def facts(outcomes: Sequence[Outcome], form: str, elapsed: float) -> list[tuple[str, str]]:
     """Names and values for the report's first page."""
-    libraries = ", ".join(f"{name} {version(name)}" for name in LIBRARIES)
+    libraries = ", ".join(f"{name} {version(name)}" for name in (*LIBRARIES, *_installed(PEERS)))
     kept = [result for outcome in outcomes for result in outcome.taken if result.is_earlier]
     time = duration(elapsed)
     if kept:
@@ -38,6 +40,12 @@ def facts(outcomes: Sequence[Outcome], form: str, elapsed: float) -> list[tuple[
             ", ".join(f"EBJ-19, SHA-256 {value[:16]}" for value in aircraft) or "not used",
         ),
     ]
+
+
+def _installed(names: Sequence[str]) -> list[str]:
+    """Those of the names that are installed."""
+    known = {distribution.name for distribution in distributions()}
+    return [name for name in names if name in known]
 
 
 def _program() -> str:

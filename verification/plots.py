@@ -270,12 +270,11 @@ def _label_ends(axes: Axes, panel: Panel, colours: dict[str, int]) -> None:
         written.add(line.label)
         colour = COLOURS[_colour(line, index, colours)]
         if line.label_at is not None:
-            x = line.label_at
-            y = float(np.interp(x, line.x, line.y))
-            axes.annotate(line.label, (x, y), (3, 3), textcoords="offset points", color=colour)
+            _label_at(axes, line, line.label_at, colour)
             continue
-        inside = np.asarray(line.x) <= axes.get_xlim()[1] * (1 + 1e-9)
-        last = (line.x[inside][-1], line.y[inside][-1])
+        inside = np.flatnonzero(np.asarray(line.x) <= axes.get_xlim()[1] * (1 + 1e-9))
+        end = inside[np.argmax(np.asarray(line.x)[inside])]
+        last = (line.x[end], line.y[end])
         corner = axes.transAxes.inverted().transform(axes.transData.transform(last))
         ends.append((float(np.clip(corner[1], 0.0, 1.0)), line.label, colour))
     height = axes.bbox.height / axes.figure.dpi * 72.0
@@ -291,6 +290,20 @@ def _label_ends(axes: Axes, panel: Panel, colours: dict[str, int]) -> None:
             color=colour,
             va="center",
         )
+
+
+def _label_at(axes: Axes, line: Line, x: float, colour: str) -> None:
+    """Write a label above the curve, on the side where the curve is lower."""
+    y, before = np.interp([x, x - 0.02 * np.ptp(line.x)], line.x, line.y)
+    is_rising = before < y
+    axes.annotate(
+        line.label,
+        (x, float(y)),
+        (-3 if is_rising else 3, 4),
+        textcoords="offset points",
+        ha="right" if is_rising else "left",
+        color=colour,
+    )
 
 
 def _spread(places: list[float], gap: float) -> list[float]:

@@ -55,7 +55,7 @@ def tyre_plot(tyre: Tyre, title: str) -> Plot:
                         / 1e3,
                         "catalogue",
                         "points",
-                        label_at=55.0,
+                        label_at=70.0,
                     ),
                 ],
                 "Vertical",

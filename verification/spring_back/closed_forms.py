@@ -247,7 +247,7 @@ def ramp_response() -> tuple[Plot, tuple[Comparison, ...]]:
                         "simulated",
                         "points",
                         colour=0,
-                        label_at=8.6,
+                        label_at=10.0,
                     ),
                 ],
                 "Amplitude",
