@@ -19,6 +19,11 @@ class Comparison:
     scale: float | None = None
 
     def __post_init__(self) -> None:
+        # Scalars of arrays become plain numbers, which every format of the report takes.
+        for name in ("found", "target", "tolerance"):
+            object.__setattr__(self, name, float(getattr(self, name)))
+        if self.scale is not None:
+            object.__setattr__(self, "scale", float(self.scale))
         if self.scale is None and self.target == 0:
             raise ValueError(f"{self.name}: a target of zero needs a scale")
         if self.scale is not None and not self.scale > 0:

@@ -1,5 +1,6 @@
 import math
 
+import numpy as np
 import pytest
 
 from verification.comparison import Comparison
@@ -39,3 +40,10 @@ def test_exact_equality_can_be_asked_for() -> None:
     assert exact.holds
     assert exact.used == 0.0
     assert not Comparison("n", 4, 3, 0.0, "", "count", "whole numbers", 1.0).holds
+
+
+def test_scalars_of_arrays_become_plain_numbers() -> None:
+    row = comparison(np.float64(2.1), np.float64(2.0), np.float64(4.0))
+    assert type(row.found) is float
+    assert row.holds is True
+    assert type(row.used) is float
