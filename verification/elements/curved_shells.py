@@ -97,17 +97,7 @@ def hemisphere(density: int = 16, triangular: bool = False) -> Figure:
 
 def raasch_hook(across: int = 20, per_arc: int = 36, triangular: bool = False) -> Figure:
     """Raasch's hook of two arcs (R 14, 60 degrees; R 46, 150 degrees), width 20, t 2, shear 1."""
-    first = np.radians(60) * np.linspace(0, 1, max(2, round(per_arc * 0.4)) + 1)
-    second = np.radians(150) * np.linspace(0, 1, per_arc + 1)[1:]
-    # First arc about (14, 0), from the clamped end at the origin upwards, turning clockwise.
-    start = np.stack([14 - 14 * np.cos(first), 14 * np.sin(first)], -1)
-    joint = start[-1]
-    # The second arc turns the other way, about the point on the same radius beyond the joint.
-    outward = np.array([-np.cos(np.radians(60)), np.sin(np.radians(60))])
-    centre = joint + 46 * outward
-    opening = np.arctan2(*(joint - centre)[::-1])
-    rest = centre + 46 * np.stack([np.cos(opening + second), np.sin(opening + second)], -1)
-    profile = np.concatenate([start, rest])
+    profile = _hook_profile(per_arc)
     along = len(profile) - 1
     width = np.linspace(0, 20, across + 1)
     coordinates = np.zeros((along + 1, across + 1, 3))
@@ -126,6 +116,41 @@ def raasch_hook(across: int = 20, per_arc: int = 36, triangular: bool = False) -
     fixed[nodes[0]] = True
     u = static(structure, fixed, edge_loads(structure, nodes[-1], 2, 1.0))
     return Figure(f"Raasch hook {across}x{along}", float(u[nodes[-1], 2].mean()), 4.935)
+
+
+def raasch_strip() -> float:
+    """Deflection of the hook by Saint-Venant's torsion and bending of a strip, warping free.
+
+    Castigliano's theorem on the hook's line; an upper bound, as the clamped end's restraint of
+    warping is left out: integral of T^2 / (G J) + M^2 / (E I) + 1 / (K G A).
+    """
+    line = _hook_profile(2000)
+    width, thickness, young, shear = 20.0, 2.0, 3300.0, 3300.0 / 2.7
+    step = np.diff(line, axis=0)
+    length = np.linalg.norm(step, axis=1)
+    tangent = step / length[:, None]
+    arm = line[-1] - (line[1:] + line[:-1]) / 2
+    torque = arm[:, 1] * tangent[:, 0] - arm[:, 0] * tangent[:, 1]
+    moment = -(arm * tangent).sum(axis=1)
+    constant = width * thickness**3 / 3 * (1 - 0.63 * thickness / width)
+    twisting = length @ torque**2 / (shear * constant)
+    bending = length @ moment**2 / (young * thickness * width**3 / 12)
+    return float(twisting + bending + length.sum() / (5 / 6 * shear * width * thickness))
+
+
+def _hook_profile(per_arc: int) -> Array:
+    """Points (n, 2) along the hook, ``per_arc`` pieces on its second arc."""
+    first = np.radians(60) * np.linspace(0, 1, max(2, round(per_arc * 0.4)) + 1)
+    second = np.radians(150) * np.linspace(0, 1, per_arc + 1)[1:]
+    # First arc about (14, 0), from the clamped end at the origin upwards, turning clockwise.
+    start = np.stack([14 - 14 * np.cos(first), 14 * np.sin(first)], -1)
+    joint = start[-1]
+    # The second arc turns the other way, about the point on the same radius beyond the joint.
+    outward = np.array([-np.cos(np.radians(60)), np.sin(np.radians(60))])
+    centre = joint + 46 * outward
+    opening = np.arctan2(*(joint - centre)[::-1])
+    rest = centre + 46 * np.stack([np.cos(opening + second), np.sin(opening + second)], -1)
+    return np.concatenate([start, rest])
 
 
 def _mirror(fixed: BoolArray, nodes: IntArray, axis: int) -> None:

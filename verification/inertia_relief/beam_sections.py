@@ -193,6 +193,7 @@ def _spin_about_axis(rows: list[Comparison]) -> list[Item]:
                     Line(np.array(SLENDERNESS), both, "rotations too", "marked"),
                 ],
                 log="xy",
+                x_limits=(1e-3, 1.0),
             )
         ],
         columns=1,

@@ -129,7 +129,7 @@ def spin_up_section(run: Run, landing: LandingRate) -> list[Item]:
             [
                 Line(time, exact.lag, "chain of masses"),
                 Line(time, linear.lag, "linear theory", "dashed"),
-                Line(time[::12], relief.lag[::12], "inertia relief", "points"),
+                Line(time[::25], relief.lag[::25], "inertia relief", "points"),
             ],
             title="free, mean axes",
         ),
@@ -139,7 +139,7 @@ def spin_up_section(run: Run, landing: LandingRate) -> list[Item]:
             [
                 Line(time, 1e3 * exact.extension, "chain of masses"),
                 Line(time, 1e3 * linear.extension, "linear theory", "dashed"),
-                Line(time[::12], 1e3 * relief.extension[::12], "inertia relief", "points"),
+                Line(time[::25], 1e3 * relief.extension[::25], "inertia relief", "points"),
             ],
             title="free, mean axes",
             levels=((1e3 * steady_extension(FINAL_RATE), "closed form"),),
@@ -159,6 +159,8 @@ def spin_up_section(run: Run, landing: LandingRate) -> list[Item]:
             ],
             title="what geometric stiffness is worth",
             log="xy",
+            x_limits=(0.01, 1.0),
+            y_limits=(1e-4, 1.0),
         ),
     ]
     plot = line_plot(
