@@ -10,7 +10,7 @@ from verification.comparison import Comparison
 from verification.outcome import Outcome
 from verification.report import Document, build_document, write_page, write_print
 from verification.report.document import ComparisonBlock
-from verification.report.numerals import aligned, compared, power_of_ten, short
+from verification.report.numerals import aligned, compared, power_of_ten, short, typeset
 from verification.run import Run, StoredResult
 
 
@@ -154,6 +154,19 @@ def test_words_that_begin_with_a_digit_are_words() -> None:
 )
 def test_short_figures(value: float, text: str) -> None:
     assert short(value) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        ("to 1e-12 each", "to 10⁻¹² each"),
+        ("2.09e-08", "2.09 × 10⁻⁸"),
+        ("1.5e+6 N", "1.5 × 10⁶ N"),
+        ("type 2e4b and 3e", "type 2e4b and 3e"),
+    ],
+)
+def test_exponents_in_texts_are_raised(text: str, printed: str) -> None:
+    assert typeset(text) == printed
 
 
 def test_powers_of_ten() -> None:

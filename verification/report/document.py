@@ -9,7 +9,7 @@ from typing import Literal
 from verification.chapter import Comparisons, Item, Plot, Table, Text
 from verification.comparison import Comparison
 from verification.outcome import Outcome
-from verification.report.numerals import Cell, aligned, compared, duration, share
+from verification.report.numerals import Cell, aligned, compared, duration, share, typeset
 
 #: A bar that shows the used part of a tolerance ends here.
 FULL = 1.0
@@ -207,9 +207,9 @@ def _blocks(chapter: int, outcome: Outcome) -> tuple[Block, ...]:
     blocks: list[Block] = []
     for item, number in _numbered(chapter, outcome):
         if isinstance(item, Text):
-            blocks.append(TextBlock(item.words))
+            blocks.append(TextBlock(typeset(item.words)))
         elif isinstance(item, Plot):
-            blocks.append(PlotBlock(number, item.name, item.caption, _file(item)))
+            blocks.append(PlotBlock(number, item.name, typeset(item.caption), _file(item)))
         elif isinstance(item, Comparisons):
             blocks.append(_comparison_block(number, item))
         else:
@@ -227,9 +227,9 @@ def _comparison_block(number: str, item: Comparisons) -> ComparisonBlock:
         letters.setdefault((row.source, row.reason), _letter(len(letters)))
     return ComparisonBlock(
         number=number,
-        title=item.title,
+        title=typeset(item.title),
         rows=_comparison_rows(item.rows, [number] * len(item.rows), letters),
-        notes=tuple(Note(letter, *texts) for texts, letter in letters.items()),
+        notes=tuple(Note(letter, *map(typeset, texts)) for texts, letter in letters.items()),
     )
 
 
@@ -257,7 +257,7 @@ def _comparison_rows(
     return tuple(
         ComparisonRow(
             table=table,
-            name=row.name,
+            name=typeset(row.name),
             note=letters.get((row.source, row.reason), ""),
             cells=cells,
             used=share(row.used),
@@ -270,9 +270,12 @@ def _comparison_rows(
 
 def _table_block(number: str, item: Table) -> TableBlock:
     """Cells aligned column by column; a heading is aligned as its column is."""
-    columns = aligned([[row[index] for row in item.rows] for index in range(len(item.columns))])
+    columns = aligned(
+        [[typeset(row[index]) for row in item.rows] for index in range(len(item.columns))]
+    )
     headings = tuple(
         Cell(heading, is_number=bool(column) and all(cell.is_number for cell in column))
         for heading, column in zip(item.columns, columns, strict=True)
     )
-    return TableBlock(number, item.title, headings, tuple(zip(*columns, strict=True)), item.note)
+    rows = tuple(zip(*columns, strict=True))
+    return TableBlock(number, typeset(item.title), headings, rows, typeset(item.note))

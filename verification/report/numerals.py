@@ -15,6 +15,7 @@ _PREFIXES = dict.fromkeys(("N", "Pa", "J", "W", "N m", "N/m", "N m/rad"), _LARGE
 )
 
 _NUMBER = re.compile(r"[−+-]?\d[\d.]*( ?%| × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
+_EXPONENTIAL = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d{1,3})(?!\w)")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -77,6 +78,17 @@ def power_of_ten(value: float, digits: int = 2) -> str:
     """Print as a number times a power of ten."""
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
     return f"{mantissa} × 10{str(int(exponent)).translate(_RAISED)}".replace("-", "−")
+
+
+def typeset(text: str) -> str:
+    """Print the figures of a text that are written like 1.5e-7 as powers of ten."""
+    return _EXPONENTIAL.sub(_raised, text)
+
+
+def _raised(found: re.Match[str]) -> str:
+    mantissa, exponent = found.groups()
+    power = "10" + str(int(exponent)).translate(_RAISED)
+    return power if mantissa == "1" else f"{mantissa} × {power}"
 
 
 def short(value: float, digits: int = 2) -> str:
