@@ -136,8 +136,8 @@ def test_differences_are_shares_unless_the_scale_is_one() -> None:
 
 
 def test_decimal_points_of_a_column_stand_above_each_other() -> None:
-    (column,) = aligned([["1.25", "−10.5", "7", "1.2 × 10⁻³", "–"]])
-    assert [cell.hidden for cell in column] == ["", "0", ".00", "", ""]
+    (column,) = aligned([["1.25", "−10.5", "7", "1.2 × 10⁻³", "10⁻³", "–"]])
+    assert [cell.hidden for cell in column] == ["", "0", ".00", "", "", ""]
     widths = {len((cell.text + cell.hidden).partition(".")[2]) for cell in column[:2]}
     assert widths == {2}
     assert all(cell.is_number for cell in column)

@@ -14,7 +14,7 @@ _PREFIXES = dict.fromkeys(("N", "Pa", "J", "W", "N m", "N/m", "N m/rad"), _LARGE
     ("m", "s"), _SMALL
 )
 
-_NUMBER = re.compile(r"[−+-]?\d[\d.]*( ?%| × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
+_NUMBER = re.compile(r"[−+-]?(10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|\d[\d.]*( ?%| × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?)")
 _EXPONENTIAL = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d{1,3})(?!\w)")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
