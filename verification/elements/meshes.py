@@ -68,8 +68,8 @@ def no_masses() -> PointMasses:
 
 
 def lumped(
-    nodes: Sequence[int],
-    masses: Sequence[float],
+    nodes: Sequence[int] | IntArray,
+    masses: Sequence[float] | Array,
     offsets: ArrayLike | None = None,
     inertias: ArrayLike | None = None,
 ) -> PointMasses:

@@ -74,7 +74,7 @@ def static_section() -> list[Item]:
                 1e-3,
                 "m",
                 f"closed form {words}",
-                "0.1 %: 60 elements" + ("; softening is 1.6e-4 of it here" if index == 0 else ""),
+                "0.1 %: 60 elements" + ("; softening is left out" if index == 0 else ""),
             )
         )
     plot = line_plot(

@@ -71,7 +71,7 @@ def spin_up_section(run: Run, landing: LandingRate) -> list[Item]:
             1e-3,
             "m",
             "closed form ρA w² L³ / (3 E A) (Simo and Vu-Quoc 1986)",
-            "0.1 %: mean of the last second; softening is 6e-5",
+            "0.1 %: mean of the last second; the closed form leaves softening out",
         ),
         Comparison(
             "steady extension, chain of masses",
