@@ -2,22 +2,18 @@
 
 from collections.abc import Callable, Sequence
 
-import numpy as np
-
 from verification.chapter import Chapter, Comparisons, Item, Plot, Table, Text
 from verification.comparison import Comparison
-from verification.elements import beams, cantilevers, curved_shells, patch, plates
+from verification.elements import beams, cantilevers, curved_shells, plates
+from verification.elements.exact_sections import MACNEAL, beam_section, compared, patch_section
 from verification.elements.figures import Figure
-from verification.elements.patch import invariants
 from verification.elements.sweeps import CASES, Sweep, sweep
 from verification.elements.thin_plate import square_plate_frequencies
 from verification.plots import Line, Panel, line_plot
 from verification.run import Run
 
-MACNEAL = "MacNeal and Harder, Finite Elem. Anal. Des. 1, 1985"
 STATIC = "2 % is usual for shells on the refined mesh of the benchmark"
 MODAL = "1 %, usual for frequencies on the refined mesh"
-ROUNDING = "solved exactly up to rounding, which bending amplifies by (l/t)² = 10⁴"
 #: Saint-Venant's torsion constant of a bar 0.2 x 0.1, J = 0.2287 b t^3 (Timoshenko and Goodier,
 #: Theory of Elasticity, section 109), under torque 1 on length 6.
 SAINT_VENANT_TWIST = 6.0 / (1e7 / 2.6 * 0.2287 * 0.2 * 0.1**3)
@@ -34,14 +30,14 @@ def chapter(run: Run) -> Chapter:
             " that the error falls with the mesh. Lengths, forces and moduli are those of the"
             " publications, mostly without units."
         ),
-        _patch_tests(),
+        patch_section(),
         *_straight_beams(run.quick),
         *_curved_beams(run.quick),
     ]
     run.progress("element benchmarks", 0.1)
     items += _curved_shells()
     items += _frequencies(run.quick)
-    items.append(_beam_elements())
+    items.append(beam_section())
     run.progress("element benchmarks", 0.3)
     meshes = 3 if run.quick else 5
     swept = []
@@ -50,92 +46,6 @@ def chapter(run: Run) -> Chapter:
         run.progress("element benchmarks", 0.3 + 0.7 * (index + 1) / len(CASES))
     items += [_convergence(swept), _ratios(swept), _limits(swept)]
     return Chapter("elements", "Elements", tuple(items))
-
-
-def _compared(
-    figure: Figure, source: str, tolerance: float, reason: str, name: str = "", unit: str = ""
-) -> Comparison:
-    return Comparison(
-        name or figure.case, figure.computed, figure.target, tolerance, unit, source, reason
-    )
-
-
-def _patch_tests() -> Comparisons:
-    states = (
-        ("constant membrane strain", patch.stretched(), patch.STRETCHED_STRESS, (1, 1)),
-        ("constant shear and drilling", patch.sheared(), patch.SHEARED_STRESS, (1, 1)),
-        ("constant bending and twist", patch.bent(), patch.BENT_STRESS, (1, -1)),
-    )
-    rows = []
-    for state, motion, stress, faces in states:
-        for shape in ("quads", "triangles", "both"):
-            if shape == "both" and state == "constant bending and twist":
-                continue
-            result = patch.solved_patch(shape, motion)
-            exact = invariants(np.array([sign * stress for sign in faces]))
-            error = float(np.abs(invariants(result.stress) - exact).max() / np.abs(exact).max())
-            words = "quadrilaterals and triangles" if shape == "both" else _words(shape)
-            for what, value in (("displacement", result.displacement_error), ("stress", error)):
-                rows.append(
-                    Comparison(
-                        f"{state}, {words}: error of {what}",
-                        value,
-                        0.0,
-                        1e-8,
-                        "1",
-                        f"{MACNEAL}, table 1: exact",
-                        ROUNDING,
-                        scale=1.0,
-                    )
-                )
-    energy, exact_energy = patch.transverse_shear_energy()
-    rows.append(
-        Comparison(
-            "constant transverse shear, quadrilaterals: energy",
-            energy,
-            exact_energy,
-            1e-10,
-            "",
-            "closed form, 5/6 G t A / 2",
-            "exact up to rounding",
-        )
-    )
-    chain, expected = patch.solved_chain(1e-3, 2e-2, -1e-2, 3e-2)
-    rows.append(
-        Comparison(
-            "constant section forces, unequal beams: error of stress",
-            float(np.abs(chain.stress - expected).max() / np.abs(expected).max()),
-            0.0,
-            1e-9,
-            "1",
-            "closed form, E (ε − y κ₁ − z κ₂) and G r θ'",
-            "exact up to rounding",
-            scale=1.0,
-        )
-    )
-    thicknesses = np.array([4e-3, 2e-3, 1e-3])
-    errors = []
-    for thickness in thicknesses:
-        found = patch.solved_patch("both", patch.bent(), float(thickness)).stress
-        exact = invariants(patch.BENT_STRESS) * (thickness / patch.THICKNESS)
-        errors.append(np.abs(invariants(found[:, 1]) / (exact * [-1, 1]) - 1).max())
-    order = np.polyfit(np.log(thicknesses), np.log(errors), 1)[0]
-    rows.append(
-        Comparison(
-            f"bending of mixed shells: error {errors[-1]:.1e} at t/l = 1/120, power of t",
-            float(order),
-            2.0,
-            0.1,
-            "1",
-            "theory of both plates",
-            "the two elements carry twist along a common side differently, by the order of (t/l)²",
-        )
-    )
-    return Comparisons("Patch tests (distorted patch in a tilted plane)", tuple(rows))
-
-
-def _words(shape: str) -> str:
-    return {"quads": "quadrilaterals", "triangles": "triangles"}[shape]
 
 
 def _straight_beams(quick: bool) -> list[Item]:
@@ -150,7 +60,7 @@ def _straight_beams(quick: bool) -> list[Item]:
             published.append((_shape(triangular), shape, *cells))
     rows = []
     meshes = [
-        (False, "regular", 1),
+        (False, "regular", 2),
         (False, "trapezoidal", 8),
         (False, "parallelogram", 8),
         (True, "regular", 2),
@@ -161,13 +71,13 @@ def _straight_beams(quick: bool) -> list[Item]:
         for name, figure in zip(
             names, cantilevers.straight_cantilever(shape, triangular, refine)[:3], strict=False
         ):
-            title = f"{shape}, {_shape(triangular)} {6 * refine} × {refine}: {name}"
-            rows.append(_compared(figure, f"{MACNEAL}, table 3", 0.02, STATIC, title))
+            title = f"straight beam, {shape} {_shape(triangular)} {6 * refine} × {refine}, {name}"
+            rows.append(compared(figure, f"{MACNEAL}, table 3", 0.02, STATIC, title))
     for triangular, refine in ((False, 16), (True, 32))[: 1 if quick else 2]:
         twist = cantilevers.straight_cantilever("regular", triangular, refine)[3]
         rows.append(
             Comparison(
-                f"regular, {_shape(triangular)} {6 * refine} × {refine}: twist",
+                f"straight beam, regular {_shape(triangular)} {6 * refine} × {refine}, twist",
                 twist.computed,
                 SAINT_VENANT_TWIST,
                 0.02,
@@ -210,7 +120,7 @@ def _curved_beams(quick: bool) -> list[Item]:
         fine = 32 if triangular else 8
         for figure in cantilevers.curved_cantilever(fine, 6 * fine, triangular):
             name = f"{shape}, {figure.case}"
-            rows.append(_compared(figure, f"{MACNEAL}, table 4", 0.02, STATIC, name))
+            rows.append(compared(figure, f"{MACNEAL}, table 4", 0.02, STATIC, name))
         for thin in (False, True):
             along = 24 if not thin else 96 if triangular else 12
             along = along * (2 if triangular and thin else 1)
@@ -220,7 +130,7 @@ def _curved_beams(quick: bool) -> list[Item]:
                 else f"{MACNEAL}, table 5"
             )
             rows += [
-                _compared(figure, source, 0.02, STATIC, f"{shape}, {figure.case}")
+                compared(figure, source, 0.02, STATIC, f"{shape}, {figure.case}")
                 for figure in cantilevers.twisted_beam(along // 6, along, triangular, thin)
             ]
     for shells, chain in (
@@ -277,7 +187,7 @@ def _curved_shells() -> list[Item]:
     for triangular in (False, True):
         shape = _shape(triangular)
         rows += [
-            _compared(figure, source, 0.02, reason, f"{shape}, {figure.case}")
+            compared(figure, source, 0.02, reason, f"{shape}, {figure.case}")
             for figure, source, reason in (
                 (curved_shells.scordelis_lo(16, triangular), f"{MACNEAL}, table 7", STATIC),
                 (curved_shells.pinched_cylinder(32, triangular), f"{MACNEAL}, page 11", point),
@@ -302,7 +212,7 @@ def _frequencies(quick: bool) -> list[Item]:
         for triangular in (False, True):
             for figure in benchmark(*mesh, triangular=triangular):
                 name = f"{_shape(triangular)}, {figure.case}"
-                rows.append(_compared(figure, f"NAFEMS {report}", 0.01, MODAL, name, "Hz"))
+                rows.append(compared(figure, f"NAFEMS {report}", 0.01, MODAL, name, "Hz"))
         if clamped is not None:
             exact = square_plate_frequencies(10.0, 0.05, 200e9, 0.3, 8000.0, clamped)
             side = 32 if quick else 64
@@ -330,39 +240,6 @@ def _frequencies(quick: bool) -> list[Item]:
         )
     )
     return tables
-
-
-def _beam_elements() -> Comparisons:
-    exact = "exact at the nodes for end loads, up to rounding"
-    polygon = "0.1 %: polygon of straight beams, error falls with the square of their number"
-    groups: Sequence[tuple[Sequence[Figure], str, float, str, str]] = (
-        (beams.cantilever(1), "closed form, Timoshenko beam", 1e-9, exact, ""),
-        (beams.offset_cantilever(), "closed form", 1e-9, exact, ""),
-        (beams.curved_cantilever(48), "closed form, Castigliano", 1e-3, polygon, ""),
-        (beams.twisted_cantilever(48), "closed form, integral of M²/(E I)", 1e-3, polygon, ""),
-        (
-            beams.free_beam_frequencies(),
-            "closed form, cos βL cosh βL = 1",
-            2e-4,
-            "2e-4: 24 elements; shear and rotary inertia left out of the closed form",
-            "rad/s",
-        ),
-        (
-            beams.thick_beam_frequencies(),
-            "T. C. Huang, J. Appl. Mech. 28, 1961",
-            2e-3,
-            "0.2 %: 60 elements, depth a tenth of the length",
-            "rad/s",
-        ),
-    )
-    return Comparisons(
-        "Beam elements",
-        tuple(
-            _compared(figure, source, tolerance, reason, unit=unit)
-            for figures, source, tolerance, reason, unit in groups
-            for figure in figures
-        ),
-    )
 
 
 def _convergence(swept: Sequence[Sweep]) -> Plot:

@@ -132,7 +132,7 @@ def time_step_section(quick: bool) -> list[Item]:
             scale=1.0,
         ),
         Comparison(
-            "the same, reduced: change of elements above 20 %",
+            "another origin and turned axes, reduced: change of elements above 20 %",
             max(choice.reduced for choice in choices),
             0.0,
             1e-3,

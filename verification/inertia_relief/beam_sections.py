@@ -116,7 +116,7 @@ def dynamic_section(quick: bool) -> list[Item]:
     turning, tip, tip_exact = spinning_step_response(substeps=8 if quick else 20)
     rows.append(
         Comparison(
-            "the same, spinning at 40 rad/s: largest difference of the tip",
+            "spinning beam under a step load: largest difference of the tip",
             float(np.abs(tip - tip_exact).max() / np.abs(tip_exact).max()),
             0.0,
             1e-2,
@@ -168,12 +168,12 @@ def _spin_about_axis(rows: list[Comparison]) -> list[Item]:
         if share == SLENDERNESS[1]:
             rows += [
                 Comparison(
-                    f"beam spinning about its axis: frequency |w_n ± W|, {k + 1} of 6",
+                    f"beam spinning about its axis: frequency |ω_n ± Ω|, {k + 1} of 6",
                     float(found[k]),
                     float(target[k]),
                     1e-9,
                     "rad/s",
-                    "exact: in space the beam vibrates at w_n whatever it spins at",
+                    "exact: in space the beam vibrates at ω_n whatever it spins at",
                     "rounding of the eigenvalues",
                 )
                 for k in range(len(found))
@@ -182,7 +182,7 @@ def _spin_about_axis(rows: list[Comparison]) -> list[Item]:
     plot = line_plot(
         "spin-about-axis",
         "Beam spinning about its axis at 0.4 of its lowest frequency: largest error of the"
-        " frequencies |w_n ± W|. With W on translations and rotations the equation is exact; with"
+        " frequencies |ω_n ± Ω|. With W on translations and rotations the equation is exact; with"
         " W on translations alone the error grows with the square of depth over length.",
         [
             Panel(

@@ -65,7 +65,7 @@ def spin_up_section(run: Run, landing: LandingRate) -> list[Item]:
     rows = (
         *_linear_rows(relief, linear),
         Comparison(
-            "steady extension, inertia relief",
+            "spun-up beam, steady extension, inertia relief",
             _settled(relief),
             steady_extension(FINAL_RATE),
             1e-3,
@@ -74,7 +74,7 @@ def spin_up_section(run: Run, landing: LandingRate) -> list[Item]:
             "0.1 %: mean of the last second; the closed form leaves softening out",
         ),
         Comparison(
-            "steady extension, chain of masses",
+            "spun-up beam, steady extension, chain of masses",
             _settled(exact),
             steady_extension(FINAL_RATE),
             2e-3,
@@ -83,7 +83,7 @@ def spin_up_section(run: Run, landing: LandingRate) -> list[Item]:
             "0.2 %: checks the chain; it swings on by a little",
         ),
         Comparison(
-            "steady extension of the root-driven chain",
+            "root-driven beam, steady extension, chain of masses",
             _settled(root),
             steady_extension(FINAL_RATE),
             5e-3,
@@ -92,7 +92,7 @@ def spin_up_section(run: Run, landing: LandingRate) -> list[Item]:
             "0.5 %: 40 segments (20 in the short form), swings on by a little",
         ),
         Comparison(
-            "share of the lag that geometric stiffness takes off: power of the rate",
+            "geometric stiffness left out, share of the lag: power of the rate",
             float(order),
             2.0,
             0.15,
@@ -101,7 +101,7 @@ def spin_up_section(run: Run, landing: LandingRate) -> list[Item]:
             "fitted below half the full rate, where the square prevails",
         ),
         Comparison(
-            f"the same at {landing.ratio:.3f} of the frequency, as in the rolling landing below",
+            f"geometric stiffness left out at rate / frequency {landing.ratio:.3f} (landing)",
             at_landing,
             0.0,
             LEFT_OUT,
@@ -191,7 +191,7 @@ def _linear_rows(relief: TipMotion, linear: TipMotion) -> list[Comparison]:
     reason = "0.2 % of the largest value: 40 elements, rotary inertia left out of the series"
     return [
         Comparison(
-            f"free beam, tip {what} over the whole history: largest difference",
+            f"spin-up of a free beam, {what} of the tip: largest difference",
             float(np.abs(found - target).max() / np.abs(target).max()),
             0.0,
             2e-3,
