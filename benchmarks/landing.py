@@ -25,7 +25,8 @@ from solver.inertia_relief.full_order import BodyLoads, integrate_full_order
 from solver.inertia_relief.loading import assemble
 from solver.inertia_relief.loads import LandingLoads, applied_shapes, landing_loads
 from solver.inertia_relief.modal_recursion import modal_response
-from solver.inertia_relief.peaks import find_peaks, plan_search
+from solver.inertia_relief.peak_plan import plan_search
+from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.rate_loads import RateLoads
 from solver.inertia_relief.response import NEGLIGIBLE, SWEEP_TOLERANCE, landing_response
 from solver.landing.simulate import SimulationOptions, simulate_landing
@@ -108,7 +109,9 @@ def reduced_parts(
     coefficients, limit = motion.rate_coefficients().T, NEGLIGIBLE * SWEEP_TOLERANCE * size
     _, rate_sweep = measured(lambda: RateLoads(loading, coefficients, limit).of(moved, moving))
     response, integration = measured(lambda: landing_response(loading, loads))
-    _, plan = measured(lambda: plan_search(response.coordinates))
+    _, plan = measured(
+        lambda: plan_search(response.coordinates.T / reduced.stress.scale, reduced.stress.spread)
+    )
     _, peaks = measured(lambda: find_peaks(reduced, response))
     return {
         "assemble_and_eigen_s": eigen,

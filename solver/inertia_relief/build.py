@@ -1,18 +1,22 @@
 """Building a reduced model from an airframe, once, cached under the hash of what it rests on."""
 
 import hashlib
-from dataclasses import asdict
+from collections.abc import Callable
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from solver.arrays import Array
+from solver.arrays import Array, Single
 from solver.inertia_relief.basis import BasisSettings, build_basis, mass_state
+from solver.inertia_relief.compression import compressed, principal_axes
 from solver.inertia_relief.damping import RayleighDamping
 from solver.inertia_relief.loads import applied_shapes
 from solver.inertia_relief.projection import projected_inertia
-from solver.inertia_relief.reduced import FORMAT, ReducedModel, load_reduced_model
+from solver.inertia_relief.reduced import FORMAT, ReducedModel, load_reduced_model, rate_norms
+from solver.inertia_relief.reduced_stress import no_stress
+from solver.inertia_relief.reference_landings import reference_motions
 from solver.inertia_relief.stress_rows import reduced_stress_rows
 from solver.progress import Progress, silent
 
@@ -21,6 +25,9 @@ if TYPE_CHECKING:
     from solver.fe.inertia import Inertia
     from solver.fe.stress import StressRecovery
     from solver.fe.structure import Structure
+
+#: Coordinates of usual landings, see `project`.
+Motions = Callable[[ReducedModel], list[Single]]
 
 
 def project(
@@ -32,37 +39,46 @@ def project(
     basis: Array,
     damping: RayleighDamping,
     key: str = "",
+    motions: Motions = lambda _: [],
     progress: Progress = silent,
 ) -> ReducedModel:
-    """Project inertia, loads and stress on a K-orthonormal ``basis`` (n, m) and the rigid modes."""
+    """Project inertia, loads and stress on a K-orthonormal ``basis`` (n, m) and the rigid modes.
+
+    Parameters
+    ----------
+    motions : callable
+        Gives the coordinates (m, nt) of usual landings with a model that has no stress yet.  They
+        choose the axes in the space of the basis and how the stress is compressed.
+    """
     parts = (base, *groups)
     origin = mass_state(base, groups, 0.5).rigid_body_properties().centre_of_gravity
     full = np.hstack([structure.rigid_modes(origin), basis])
-    masses, operators, norms, inertial = [], [], [], []
+    masses, operators, inertial = [], [], []
     for index, part in enumerate(parts):
         progress("projection", index / (len(parts) + 1))
         mass, terms = projected_inertia(part, full)
         masses.append(mass)
         operators.append(np.ascontiguousarray(terms.transpose(0, 2, 1), dtype=np.float32))
-        norms.append(np.linalg.norm(terms[:, 6:], axis=1))
         inertial.append(full.T @ part.rigid_load_shapes(origin))
-    stress = reduced_stress_rows(recovery, basis)
     progress("projection", 1.0)
-    return ReducedModel(
+    rates = np.stack(operators)
+    model = ReducedModel(
         key=key,
         damping=damping,
         origin=origin,
         mass=np.stack(masses),
-        rate_operators=np.stack(operators),
-        rate_norms=np.stack(norms),
+        rate_operators=rates,
+        rate_norms=rate_norms(rates),
         applied=full.T @ applied,
         inertia=np.stack(inertial),
-        shell_stress=stress.shells,
-        beam_stress=stress.beams,
-        beam_points=stress.points,
-        shell_squares=stress.shell_squares(),
-        beam_squares=stress.beam_squares(),
+        stress=no_stress(basis.shape[1]),
     )
+    axes, spread = principal_axes(motions(model), model.size)
+    progress("compression", 0.0)
+    rows = reduced_stress_rows(recovery, basis @ axes)
+    stress = compressed(rows, spread)
+    progress("compression", 1.0)
+    return replace(model.turned(axes), stress=stress)
 
 
 def model_key(content_hash: str, settings: BasisSettings, damping: RayleighDamping) -> str:
@@ -107,6 +123,7 @@ def reduced_model(
         basis,
         damping,
         key,
+        lambda model: reference_motions(airframe, model, progress),
         progress,
     )
     if folder is None:

@@ -1,9 +1,9 @@
 """Compiled inner loops of the peak search: bounds, and evaluation where they do not suffice.
 
-Between two coarse samples the stress rows of an element are a straight line, plus the deviation
-along its leading directions, plus a small rest.  Intervals are halved while their bound reaches
-the best value so far; in their middle the first two parts are cheap to evaluate and the rest is
-bounded; only where both together reach the best value are all coordinates evaluated.
+Between two knots the stress rows of an element are a straight line, plus the deviation along its
+leading directions, plus a small rest.  Intervals are halved while their bound reaches the best
+value so far; in their middle the first two parts are cheap to evaluate and the rest is bounded;
+only where both together reach the best value is the exact stress evaluated.
 """
 
 import math
@@ -12,13 +12,9 @@ from typing import Any
 import numba
 import numpy as np
 
-from solver.arrays import Array, IntArray
-from solver.inertia_relief.reduced import Single
+from solver.arrays import Array, IntArray, Single
+from solver.inertia_relief.peak_plan import LEVELS, LONGEST
 
-#: Samples between two coarse ones, a power of two.
-STEP = 8
-#: Times that an interval can be halved.
-LEVELS = 3
 #: Covers the rounding of single precision in comparing a bound with a value.
 _MARGIN = np.float32(1.0001)
 _ZERO = np.float32(0.0)
@@ -44,6 +40,49 @@ def _squares(rows: Single, points: Single, out: Single) -> None:  # pragma: no c
             normal = a * rows[0, k] + b * rows[1, k] + c * rows[2, k] + d * rows[3, k]
             normal += e * rows[4, k]
             out[i, k] = normal * normal + rows[5, k] * rows[5, k]
+
+
+@numba.njit(cache=True, fastmath=_FAST)
+def _values(rows: Single, points: Single, out: Single) -> None:  # pragma: no cover - compiled
+    """Von Mises stress (k,) from the rows (6, k) of one element, larger face or highest point."""
+    count = len(out)
+    if points.shape[0] == 0:
+        for k in range(count):
+            a, b, c = rows[0, k], rows[1, k], rows[2, k]
+            bottom = a * a + b * b + c * c
+            a, b, c = rows[3, k], rows[4, k], rows[5, k]
+            top = a * a + b * b + c * c
+            out[k] = top if top > bottom else bottom
+    else:
+        for k in range(count):
+            out[k] = _ZERO
+        for i in range(points.shape[0]):
+            p0, p1, p2, p3, p4 = (
+                points[i, 0],
+                points[i, 1],
+                points[i, 2],
+                points[i, 3],
+                points[i, 4],
+            )
+            for k in range(count):
+                normal = p0 * rows[0, k] + p1 * rows[1, k] + p2 * rows[2, k] + p3 * rows[3, k]
+                normal += p4 * rows[4, k]
+                square = normal * normal
+                out[k] = square if square > out[k] else out[k]
+        for k in range(count):
+            out[k] += rows[5, k] * rows[5, k]
+    for k in range(count):
+        out[k] = math.sqrt(out[k])
+
+
+@numba.njit(cache=True, fastmath=_FAST)
+def _bounds(
+    values: Single, deviation: Single, norm: float, between: Single, dropped: float, out: Single
+) -> None:  # pragma: no cover - compiled
+    """Cheap bounds (ni,) of the stress between knots, from norms of everything that deviates."""
+    for i in range(len(out)):
+        larger = values[i] if values[i] > values[i + 1] else values[i + 1]
+        out[i] = (larger + norm * deviation[i] + dropped * between[i]) * _MARGIN
 
 
 @numba.njit(cache=True, fastmath=_FAST)
@@ -88,6 +127,7 @@ def _direction_norms(squares: Single, total: Single, out: Single) -> None:  # pr
     """Largest stress for unit norm along each leading direction (k,), then in all others.
 
     ``squares`` (p, k) are those of the leading directions, ``total`` (p,) of all coordinates.
+    The last of ``out`` (k + 2,) is the norm of the others.
     """
     count = squares.shape[1]
     for k in range(count + 1):
@@ -99,29 +139,18 @@ def _direction_norms(squares: Single, total: Single, out: Single) -> None:  # pr
         out[count] = left if left > out[count] else out[count]
         for k in range(count):
             out[k] = squares[i, k] if squares[i, k] > out[k] else out[k]
+    everything: Any = _ZERO
     for k in range(count + 1):
+        everything += out[k]
         out[k] = math.sqrt(out[k])
+    out[count + 1] = math.sqrt(everything)
 
 
 @numba.njit(cache=True, fastmath=_FAST)
-def _interval_bounds(
-    norms: Single, deviation: Single, values: Single, out: Single
-) -> None:  # pragma: no cover - compiled
-    """Bounds (ni,) of every interval between coarse samples; ``deviation`` (k, ni)."""
-    for i in range(len(out)):
-        out[i] = values[i] if values[i] > values[i + 1] else values[i + 1]
-    for k in range(len(norms)):
-        for i in range(len(out)):
-            out[i] += norms[k] * deviation[k, i]
-    for i in range(len(out)):
-        out[i] *= _MARGIN
-
-
-@numba.njit(cache=True, fastmath=_FAST)
-def _interval_bound(norms: Single, largest: Single) -> float:  # pragma: no cover - compiled
+def _rise(norms: Single, largest: Single) -> float:  # pragma: no cover - compiled
     """How far the stress can rise above the line between an interval's ends."""
     total: Any = _ZERO
-    for k in range(len(norms)):
+    for k in range(len(norms) - 1):
         total += norms[k] * largest[k]
     rise: float = total
     return rise
@@ -130,14 +159,17 @@ def _interval_bound(norms: Single, largest: Single) -> float:  # pragma: no cove
 @numba.njit(cache=True)
 def search_block(
     operator: Single,
-    total: Single,
     points: Single,
-    coarse_rows: Single,
-    leading_rows: Single,
+    total: Single,
+    dropped: Single,
+    beside: Single,
+    between: Single,
+    rows: Single,
     coordinates: Single,
+    knots: IntArray,
+    knot_deviation: Single,
     deviation: Single,
     rest: Single,
-    coarse_largest: Single,
     largest: Single,
     stress: Array,
     sample: IntArray,
@@ -147,93 +179,95 @@ def search_block(
     Parameters
     ----------
     operator : (n, 6, m) array
-        Stress rows [Pa].
-    total : (n, p) array
-        Sum over the coordinates of the squares of each measure, see `_squares`.
+        Exact stress rows [Pa].
     points : (n, 8, 5) array
         Normal stress of a beam's points from its first five rows; (n, 0, 5) for shells.
-    coarse_rows : (n, 6, ni + 1) array
-        Stress at the coarse samples.
-    leading_rows : (n, 6, k) array
-        Stress in the leading directions of deviation.
-    coordinates : (ni STEP + 1, m) array
-        At every sample.
-    deviation : (ni STEP, k) array
-        Deviation of every sample from the straight line between coarse ones, leading directions.
-    rest : (ni STEP,) array
-        Norm of that deviation in all other directions.
-    coarse_largest : (k + 1, ni) array
-        Largest deviation between coarse samples along each leading direction and, last, of the
-        rest.
-    largest : (LEVELS, ni STEP / 2, k + 1) array
-        The same between the ends of every interval, of its halves, and so on to two samples.
+    total : (n, p) array
+        Sum over the coordinates of the squares of each measure, see `measure_squares`.
+    dropped : (n,) array
+        See `StressBlock`.
+    beside : (ni + 1,) array
+        Norm of coordinates / spread that compression leaves out, at the knots.
+    between : (ni,) array
+        The same at most between two knots.
+    rows : (n, 6, ni + 1 + k) array
+        Compressed rows times the coordinates at the knots, then times the leading directions.
+    coordinates, knots, knot_deviation, deviation, rest, largest : arrays
+        See `SearchPlan`.
     stress, sample : (n,) arrays
         Filled with peak and sample.
     """
-    count, _, coarse_count = coarse_rows.shape
-    directions, measures = leading_rows.shape[2], total.shape[1]
+    count, measures = total.shape
+    knot_count, directions = len(knots), deviation.shape[1]
+    leading = np.empty((6, directions), dtype=np.float32)
     leading_squares = np.empty((measures, directions), dtype=np.float32)
-    coarse_squares = np.empty((measures, coarse_count), dtype=np.float32)
-    values = np.empty(coarse_count, dtype=np.float32)
-    bounds = np.empty(coarse_count - 1, dtype=np.float32)
-    norms = np.empty(directions + 1, dtype=np.float32)
+    bounds = np.empty(knot_count - 1, dtype=np.float32)
+    values = np.empty(knot_count, dtype=np.float32)
+    norms = np.empty(directions + 2, dtype=np.float32)
     nothing = np.zeros(6, dtype=np.float32)
     line = np.empty(6, dtype=np.float32)
-    # intervals still to be looked at: level, index, bounds of the stress at both ends
+    # intervals still to be looked at: first sample, length, bounds of the stress at both ends
     pending = np.empty((LEVELS + 2, 2), dtype=np.int64)
     ends = np.empty((LEVELS + 2, 2), dtype=np.float32)
     evaluated = 0
     for e in range(count):
-        _squares(coarse_rows[e], points[e], coarse_squares)
-        for i in range(coarse_count):
-            square = coarse_squares[0, i]
-            for j in range(1, measures):
-                square = coarse_squares[j, i] if coarse_squares[j, i] > square else square
-            values[i] = math.sqrt(square)
-        _squares(leading_rows[e], points[e], leading_squares)
+        _values(rows[e, :, :knot_count], points[e], values)
+        top = np.argmax(values)
+        leading[:] = rows[e, :, knot_count:]
+        _squares(leading, points[e], leading_squares)
         _direction_norms(leading_squares, total[e], norms)
-        _interval_bounds(norms, coarse_largest, values, bounds)
-        best, where, highest = values[0], 0, 0
-        for i in range(1, coarse_count):
-            if values[i] > best:
-                best, where = values[i], i * STEP
-        for i in range(coarse_count - 1):
-            if bounds[i] > bounds[highest]:
-                highest = i
-        for turn in range(-1, coarse_count - 1):  # the most promising interval comes first
-            i = highest if turn < 0 else turn
-            if bounds[i] <= best or turn == highest:
+        where = knots[top]
+        best: Any = _stress(operator[e], coordinates[where], nothing, points[e])
+        evaluated += 1
+        _bounds(values, knot_deviation, norms[-1], between, dropped[e], bounds)
+        # outwards from the highest knot, so that the best value is high from the beginning
+        for turn in range(2 * knot_count):
+            i = top - 1 - turn // 2 if turn % 2 == 0 else top + turn // 2
+            if i < 0 or i >= knot_count - 1 or bounds[i] <= best:
                 continue
+            start, whole = knots[i], knots[i + 1] - knots[i]
+            margin = dropped[e] * between[i]
             depth = 1
-            pending[0, 0], pending[0, 1] = 0, i
+            pending[0, 0], pending[0, 1] = start, whole
             ends[0, 0], ends[0, 1] = values[i], values[i + 1]
+            outer = i if i < top else i + 1  # the knot at the other end has had its turn
+            if (values[outer] + dropped[e] * beside[outer]) * _MARGIN > best:
+                value: Any = _stress(operator[e], coordinates[knots[outer]], nothing, points[e])
+                evaluated += 1
+                if value > best:
+                    best, where = value, knots[outer]
             while depth > 0:
                 depth -= 1
-                level, index = pending[depth, 0], pending[depth, 1]
+                begin, width = pending[depth, 0], pending[depth, 1]
                 left, right = ends[depth, 0], ends[depth, 1]
-                larger = left if left > right else right
-                rise = _interval_bound(norms, largest[level, index])
-                if (larger + rise) * _MARGIN <= best:
+                level, longest = 0, LONGEST
+                while longest > width:
+                    level, longest = level + 1, longest >> 1
+                reach = margin + (left if left > right else right)
+                among = largest[level, begin // width]
+                # the product of the norms bounds the sum of the products, at less cost
+                if (reach + norms[-1] * among[-1]) * _MARGIN <= best:
                     continue
-                width = STEP >> level
-                middle = index * width + (width >> 1)
-                share = np.float32((middle - i * STEP) / STEP)
+                if (reach + _rise(norms, among)) * _MARGIN <= best:
+                    continue
+                middle = begin + (width >> 1)
+                share = np.float32((middle - start) / whole)
                 for row in range(6):
-                    start = coarse_rows[e, row, i]
-                    line[row] = start + share * (coarse_rows[e, row, i + 1] - start)
-                value: Any = _stress(leading_rows[e], deviation[middle], line, points[e])
+                    at = rows[e, row, i]
+                    line[row] = at + share * (rows[e, row, i + 1] - at)
+                value = _stress(leading, deviation[middle], line, points[e])
                 value = np.float32(value + norms[directions] * rest[middle])
-                if value * _MARGIN > best:
-                    value = np.float32(
-                        _stress(operator[e], coordinates[middle], nothing, points[e])
-                    )
+                if (value + margin) * _MARGIN > best:
+                    exact: Any = _stress(operator[e], coordinates[middle], nothing, points[e])
                     evaluated += 1
-                    if value > best:
-                        best, where = value, middle
-                if level + 1 < LEVELS:
-                    pending[depth, 0], pending[depth, 1] = level + 1, 2 * index
+                    if exact > best:
+                        best, where = exact, middle
+                        value = exact if exact < value else value
+                if width > 2:
+                    half = width >> 1
+                    pending[depth, 0], pending[depth, 1] = begin, half
                     ends[depth, 0], ends[depth, 1] = left, value
-                    pending[depth + 1, 0], pending[depth + 1, 1] = level + 1, 2 * index + 1
+                    pending[depth + 1, 0], pending[depth + 1, 1] = middle, half
                     ends[depth + 1, 0], ends[depth + 1, 1] = value, right
                     depth += 2
         stress[e] = best

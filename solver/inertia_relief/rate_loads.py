@@ -2,16 +2,16 @@
 
 All twelve operators act in one matrix product per sweep, in single precision: the terms are a small
 share of the response and each sweep brings a smaller one.  A product of one rate coefficient and
-one coordinate enters only if its part in the loads matters: the bounds of those left out add up to
-less than a stated norm.  Slow motion under small rates needs few of the 12 (6 + m) products.
+one coordinate enters only if its part in the loads matters: the root of the sum of squares of the
+bounds of those left out is less than a stated norm.  Slow motion under small rates needs few of
+the 12 (6 + m) products.
 """
 
 import numba
 import numpy as np
 
-from solver.arrays import Array, IntArray
+from solver.arrays import Array, IntArray, Single
 from solver.inertia_relief.loading import ReducedLoading
-from solver.inertia_relief.reduced import Single
 
 
 @numba.njit(cache=True)
@@ -84,7 +84,8 @@ class RateLoads:
         bounds[:3] *= fastest
         bounds[3:] *= farthest
         order = np.argsort(bounds, axis=None)
-        added = np.cumsum(bounds.ravel()[order])
+        # what is left out adds up like noise: many small parts that know nothing of each other
+        added = np.sqrt(np.cumsum(bounds.ravel()[order] ** 2))
         kept = order[np.searchsorted(added, self._negligible, side="right") :]
         terms, coordinates = np.unravel_index(np.sort(kept), bounds.shape)
         return terms, coordinates

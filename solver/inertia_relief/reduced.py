@@ -9,19 +9,18 @@ import json
 import os
 import shutil
 import tempfile
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from solver.arrays import Array
+from solver.arrays import Array, Single
 from solver.inertia_relief.damping import RayleighDamping
+from solver.inertia_relief.reduced_stress import ReducedStress, no_stress
 
 #: Changes whenever the stored arrays change their meaning.
-FORMAT = 4
-
-Single = NDArray[np.float32]
+FORMAT = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +35,7 @@ class ReducedModel:
     rate_norms: Array  #: (1 + g, 12, M) norms of the elastic loads of unit coordinates
     applied: Array  #: (M, k) unit pin components, then unit air resultants
     inertia: Array  #: (1 + g, M, 12) unit motions, see `Inertia.rigid_load_shapes`
-    shell_stress: Single  #: (n_shells, 6, m) rows whose squares sum to von Mises, two faces
-    beam_stress: Single  #: (n_beams, 6, m) five rows of normal stress, sqrt(3) times the shear
-    beam_points: Single  #: (n_beams, 8, 5) normal stress of the points from the five rows
-    shell_squares: Single  #: (n_shells, 2) sum of the squares of each face's rows
-    beam_squares: Single  #: (n_beams, 8) sum of the squares of each point's normal stress and shear
+    stress: ReducedStress
 
     @property
     def size(self) -> int:
@@ -55,17 +50,34 @@ class ReducedModel:
     @property
     def element_count(self) -> int:
         """Number of elements with stress, shells first."""
-        return len(self.shell_stress) + len(self.beam_stress)
+        return self.stress.element_count
+
+    def turned(self, axes: Array) -> "ReducedModel":
+        """Return the model without stress in coordinates along orthonormal ``axes`` (m, m)."""
+        turn = np.eye(6 + self.size)
+        turn[6:, 6:] = axes
+        single = turn.astype(np.float32)
+        operators = np.stack([single.T @ part @ single for part in self.rate_operators])
+        return replace(
+            self,
+            mass=turn.T @ self.mass @ turn,
+            rate_operators=operators,
+            rate_norms=rate_norms(operators),
+            applied=turn.T @ self.applied,
+            inertia=turn.T @ self.inertia,
+            stress=no_stress(self.size),
+        )
 
     def save(self, folder: Path) -> None:
         """Write the model as ``folder`` in one step: readers see all of it or nothing."""
         folder.parent.mkdir(parents=True, exist_ok=True)
         draft = Path(tempfile.mkdtemp(prefix=".reduced-", dir=folder.parent))
         try:
-            for field in fields(self):
-                value = getattr(self, field.name)
-                if isinstance(value, np.ndarray):
-                    np.save(draft / f"{field.name}.npy", value)
+            for part in (self, self.stress):
+                for field in fields(part):
+                    value = getattr(part, field.name)
+                    if isinstance(value, np.ndarray):
+                        np.save(draft / f"{field.name}.npy", value)
             damping = {
                 field.name: getattr(self.damping, field.name) for field in fields(self.damping)
             }
@@ -86,9 +98,20 @@ def load_reduced_model(folder: Path, key: str | None = None) -> ReducedModel | N
         return None
     if head["format"] != FORMAT or (key is not None and head["key"] != key):
         return None
-    arrays = {
-        field.name: np.load(folder / f"{field.name}.npy", mmap_mode="r")
-        for field in fields(ReducedModel)
-        if field.name not in ("key", "damping")
-    }
-    return ReducedModel(key=head["key"], damping=RayleighDamping(**head["damping"]), **arrays)
+
+    def arrays(kind: type, *others: str) -> dict[str, Any]:
+        names = [field.name for field in fields(kind) if field.name not in others]
+        return {name: np.load(folder / f"{name}.npy", mmap_mode="r") for name in names}
+
+    return ReducedModel(
+        key=head["key"],
+        damping=RayleighDamping(**head["damping"]),
+        stress=ReducedStress(**arrays(ReducedStress)),
+        **arrays(ReducedModel, "key", "damping", "stress"),
+    )
+
+
+def rate_norms(operators: Single) -> Array:
+    """Norms (1 + g, 12, M) of the elastic loads that unit coordinates cause."""
+    norms: Array = np.linalg.norm(operators[..., 6:], axis=3).astype(np.float64)
+    return norms

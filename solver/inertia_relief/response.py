@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.arrays import Array
+from solver.arrays import Array, IntArray, Single
 from solver.errors import ModelError
 from solver.inertia_relief.loading import ReducedLoading
 from solver.inertia_relief.loads import LandingLoads, equilibrium_residual
@@ -18,8 +18,13 @@ from solver.inertia_relief.rate_loads import RateLoads
 
 #: Largest change by the last sweep, relative to the largest displacement, strain-energy norm.
 SWEEP_TOLERANCE = 1e-3
+#: Samples between two at which the W terms are evaluated; between them they are straight.
+RATE_STRIDE = 2
 #: Share of the tolerance that the pseudo loads of a sweep may leave out.
 NEGLIGIBLE = 0.5
+#: A further sweep is left out if, shrinking as the last one did, it would change by this factor
+#: less than the tolerance.
+CAUTION = 10.0
 MAXIMUM_SWEEPS = 30
 
 
@@ -28,7 +33,7 @@ class ReducedResponse:
     """Elastic motion of a landing."""
 
     time: Array  #: (nt,) [s]
-    coordinates: Array  #: (m, nt) in the model's K-orthonormal basis
+    coordinates: Single  #: (m, nt), sample by sample in memory, in the model's K-orthonormal basis
     sweeps: int  #: of the W terms
     last_change: float  #: of the last sweep, see `SWEEP_TOLERANCE`
     equilibrium_residual: float  #: see `equilibrium_residual`
@@ -64,7 +69,7 @@ def landing_response(
         loading, step, load, motion.rate_coefficients().T, tolerance
     )
     modes = loading.modes.astype(np.float32)
-    coordinates = (modes @ response.astype(np.float32)).astype(np.float64)
+    coordinates: Single = (response.T.astype(np.float32) @ modes.T).T
     return ReducedResponse(loads.time, coordinates, sweeps, change, residual)
 
 
@@ -80,14 +85,21 @@ def swept_response(
     total = displacement
     if not np.any(rate_coefficients):
         return total, 0, 0.0
-    size = _largest(total)
-    loads = RateLoads(loading, rate_coefficients, NEGLIGIBLE * tolerance * size)
+    size, change = _largest(total), 1.0
+    at = np.arange(0, load.shape[1], RATE_STRIDE)
+    if at[-1] != load.shape[1] - 1:
+        at = np.append(at, load.shape[1] - 1)
+    loads = RateLoads(loading, rate_coefficients[:, at], NEGLIGIBLE * tolerance * size)
     for sweep in range(1, MAXIMUM_SWEEPS + 1):
-        pseudo = loads.of(displacement, velocity)
+        some = loads.of(displacement[:, at], velocity[:, at])
+        if not np.any(some):
+            return total, sweep, 0.0
+        pseudo = _between(some, at)
         displacement, velocity = modal_response(step, pseudo, pseudo[:, 0])
         total += displacement
-        change = _largest(displacement) / size
-        if change <= tolerance:
+        before, change = change, _largest(displacement) / size
+        # the next sweep would change by another such factor
+        if change <= tolerance or CAUTION * change**2 <= tolerance * before:
             return total, sweep, change
         if not np.isfinite(change):
             break
@@ -97,3 +109,12 @@ def swept_response(
 def _largest(field: Array) -> float:
     """Largest strain-energy norm over time of (m, nt) modal coordinates."""
     return float(np.sqrt(np.einsum("ij,ij->j", field, field).max()))
+
+
+def _between(some: Array, at: IntArray) -> Array:
+    """History (m, nt) that is straight between samples ``at``, no more than two apart."""
+    every = np.empty((len(some), at[-1] + 1))
+    every[:, at] = some
+    between = np.flatnonzero(np.diff(at) > 1)
+    every[:, at[between] + 1] = (some[:, between] + some[:, between + 1]) / 2
+    return every

@@ -7,13 +7,13 @@ five numbers: the axial force, and two bending moments at each end.
 """
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from solver.arrays import Array
+from solver.arrays import Array, Single
 from solver.errors import ModelError
-from solver.inertia_relief.reduced import Single
 
 if TYPE_CHECKING:
     from solver.fe.stress import StressRecovery
@@ -31,17 +31,30 @@ class StressRows:
     beams: Single  #: (n_beams, 6, m) five rows of normal stress, sqrt(3) times the shear [Pa]
     points: Single  #: (n_beams, 8, 5) normal stress of the eight points from the five rows
 
-    def shell_squares(self) -> Single:
-        """Sum over the coordinates of the squares of each face's rows, (n_shells, 2)."""
-        squares = np.einsum("erk,erk->er", self.shells, self.shells)
-        return np.asarray(squares.reshape(-1, 2, 3).sum(axis=2), dtype=np.float32)
 
-    def beam_squares(self) -> Single:
-        """Sum of the squares of each point's normal stress and of the shear, (n_beams, 8)."""
-        normal = self.points @ self.beams[:, :5]
-        shear = np.einsum("ek,ek->e", self.beams[:, 5], self.beams[:, 5])
-        squares = np.einsum("epk,epk->ep", normal, normal) + shear[:, None]
-        return np.asarray(squares, dtype=np.float32)
+def measure_squares(rows: NDArray[Any], points: NDArray[Any]) -> Array:
+    """Sum over the coordinates of the squares of each measure of stress.
+
+    Parameters
+    ----------
+    rows : (n, 6, m) array
+        Of shells or of beams.
+    points : (n, 8, 5) array
+        Of beams; (n, 0, 5) for shells.
+
+    Returns
+    -------
+    (n, 2) or (n, 8) array
+        For both faces of a shell, or the eight points of a beam: the largest square of its von
+        Mises stress for unit norm of the coordinates is at most this.
+    """
+    squares = np.einsum("erk,erk->er", rows, rows)
+    if points.shape[1] == 0:
+        faces: Array = squares.reshape(-1, 2, 3).sum(axis=2)
+        return faces
+    normal = points @ rows[:, :5]
+    total: Array = np.einsum("epk,epk->ep", normal, normal) + squares[:, 5:]
+    return total
 
 
 def reduced_stress_rows(recovery: "StressRecovery", basis: Array) -> StressRows:

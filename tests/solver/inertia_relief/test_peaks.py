@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solver.arrays import Array
+from solver.inertia_relief.compression import compressed
 from solver.inertia_relief.damping import RayleighDamping
 from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.reduced import ReducedModel
@@ -32,24 +33,21 @@ def stress_model(shells: int, beams: int, size: int, seed: int) -> ReducedModel:
         rate_norms=np.zeros((1, 12, 6 + size)),
         applied=np.zeros((6 + size, 6)),
         inertia=np.zeros((1, 6 + size, 12)),
-        shell_stress=rows.shells,
-        beam_stress=rows.beams,
-        beam_points=rows.points,
-        shell_squares=rows.shell_squares(),
-        beam_squares=rows.beam_squares(),
+        stress=compressed(rows, decay),
     )
 
 
 def response_of(coordinates: Array) -> ReducedResponse:
     time = np.arange(coordinates.shape[1]) * 1e-3
-    return ReducedResponse(time, coordinates, 0, 0.0, 0.0)
+    return ReducedResponse(time, coordinates.astype(np.float32), 0, 0.0, 0.0)
 
 
 def every_sample(model: ReducedModel, coordinates: Array) -> Array:
     """Von Mises stress (ne, nt) of all elements at all samples, in double precision."""
-    shells = (model.shell_stress.astype(float) @ coordinates) ** 2
-    rows = model.beam_stress.astype(float) @ coordinates
-    normal = model.beam_points.astype(float) @ rows[:, :5]
+    coordinates = coordinates / model.stress.scale[:, None]
+    shells = (model.stress.shell_rows.astype(float) @ coordinates) ** 2
+    rows = model.stress.beam_rows.astype(float) @ coordinates
+    normal = model.stress.beam_points.astype(float) @ rows[:, :5]
     faces = np.maximum(shells[:, :3].sum(axis=1), shells[:, 3:].sum(axis=1))
     points = (normal**2).max(axis=1) + rows[:, 5] ** 2
     return np.sqrt(np.concatenate([faces, points]))
