@@ -1,8 +1,11 @@
-"""Compress the stress rows of blocks of elements, for the motions that landings cause.
+"""Compress basis and stress rows for the motions that landings cause.
 
-The factors of a block are the leading singular vectors of its rows, every element alike, with the
-coordinates weighed by how far landings move them.  The landings decide how few patterns suffice
-for the bounds of the peak search to be narrow; its answers do not rest on them.
+The basis is made for any load at every place.  Of what it spans, directions in which no landing
+moves more than a trace are left out (`principal_axes`).
+
+The rows of a block of elements are factored (`compressed`): the factors are their leading singular
+vectors, every element alike, the coordinates weighed by how far landings move them.  Here the
+landings decide only how narrow the bounds of the peak search are; its answers do not rest on them.
 
 Source: Eckart and Young, "The approximation of one matrix by another of lower rank", 1936.
 """
@@ -17,6 +20,8 @@ from solver.inertia_relief.stress_rows import StressRows, measure_squares
 
 #: Root mean square of what is dropped over a block's elements, relative to each one's own rows.
 DROPPED = 5e-4
+#: Share of the motion in landings that the directions left out may carry.
+UNMOVED = 2e-5
 #: Power of the spread by which coordinates are divided; 0 keeps them, 1 makes them alike.
 SCALING = 0.3
 #: A coordinate counts as moved by at least this share of the most moved one.
@@ -24,7 +29,10 @@ _LEAST_SPREAD = 3e-5
 
 
 def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array]:
-    """Find the directions in which landings move the coordinates, and how far.
+    """Find the directions in which landings move the coordinates, how far, and which matter.
+
+    Directions in which they hardly move are left out: those that carry, together, less than
+    `UNMOVED` of the root mean square of the motion.
 
     Parameters
     ----------
@@ -34,7 +42,7 @@ def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array
 
     Returns
     -------
-    (m, m) array, (m,) array
+    (m, k) array, (k,) array
         Orthonormal columns, least moved first, and the root mean square along each, positive.
     """
     if not histories:
@@ -44,6 +52,9 @@ def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array
         scaled = history / np.linalg.norm(history, axis=0).max()
         covariance += scaled @ scaled.T / (scaled.shape[1] * len(histories))
     squares, axes = np.linalg.eigh(covariance)
+    squares = np.maximum(squares, 0.0)
+    first = int(np.searchsorted(np.cumsum(squares), UNMOVED**2 * squares.sum()))
+    squares, axes = squares[first:], axes[:, first:]
     return axes, np.sqrt(np.maximum(squares, _LEAST_SPREAD**2 * squares[-1]))
 
 

@@ -165,6 +165,7 @@ def search_block(
     beside: Single,
     between: Single,
     rows: Single,
+    leading: Single,
     coordinates: Single,
     knots: IntArray,
     knot_deviation: Single,
@@ -190,8 +191,10 @@ def search_block(
         Norm of coordinates / spread that compression leaves out, at the knots.
     between : (ni,) array
         The same at most between two knots.
-    rows : (n, 6, ni + 1 + k) array
-        Compressed rows times the coordinates at the knots, then times the leading directions.
+    rows : (n, 6, ni + 1) array
+        Compressed rows times the coordinates at the knots.
+    leading : (n, 6, k) array
+        Compressed rows times the leading directions.
     coordinates, knots, knot_deviation, deviation, rest, largest : arrays
         See `SearchPlan`.
     stress, sample : (n,) arrays
@@ -199,7 +202,6 @@ def search_block(
     """
     count, measures = total.shape
     knot_count, directions = len(knots), deviation.shape[1]
-    leading = np.empty((6, directions), dtype=np.float32)
     leading_squares = np.empty((measures, directions), dtype=np.float32)
     bounds = np.empty(knot_count - 1, dtype=np.float32)
     values = np.empty(knot_count, dtype=np.float32)
@@ -211,10 +213,9 @@ def search_block(
     ends = np.empty((LEVELS + 2, 2), dtype=np.float32)
     evaluated = 0
     for e in range(count):
-        _values(rows[e, :, :knot_count], points[e], values)
+        _values(rows[e], points[e], values)
         top = np.argmax(values)
-        leading[:] = rows[e, :, knot_count:]
-        _squares(leading, points[e], leading_squares)
+        _squares(leading[e], points[e], leading_squares)
         _direction_norms(leading_squares, total[e], norms)
         where = knots[top]
         best: Any = _stress(operator[e], coordinates[where], nothing, points[e])
@@ -255,7 +256,7 @@ def search_block(
                 for row in range(6):
                     at = rows[e, row, i]
                     line[row] = at + share * (rows[e, row, i + 1] - at)
-                value = _stress(leading, deviation[middle], line, points[e])
+                value = _stress(leading[e], deviation[middle], line, points[e])
                 value = np.float32(value + norms[directions] * rest[middle])
                 if (value + margin) * _MARGIN > best:
                     exact: Any = _stress(operator[e], coordinates[middle], nothing, points[e])

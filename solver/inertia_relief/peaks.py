@@ -38,18 +38,21 @@ def find_peaks(model: ReducedModel, response: ReducedResponse) -> StressPeaks:
     """Find the peak of every element over all samples of a response."""
     count = model.stress.element_count
     plan = plan_search(response.coordinates.T / model.stress.scale, model.stress.spread)
-    columns = np.hstack([plan.at_knots, plan.directions])
+    columns, knots = np.hstack([plan.at_knots, plan.directions]), len(plan.knots)
+    patterns: Single = model.stress.patterns @ columns
     # fresh pages for every block would cost as much as what is written on them
-    patterns = np.empty((model.stress.pattern_counts.max(initial=0), columns.shape[1]), np.float32)
-    rows = np.empty((6 * BLOCK, columns.shape[1]), dtype=np.float32)
+    at_knots = np.empty(6 * BLOCK * knots, dtype=np.float32)
+    leading = np.empty(6 * BLOCK * (columns.shape[1] - knots), dtype=np.float32)
     stress = np.zeros(count)
     sample = np.zeros(count, dtype=np.int64)
     evaluated = first = 0
     for block in model.stress.blocks():
-        found: Single = patterns[: len(block.patterns)]
-        np.matmul(block.patterns, columns, out=found)
-        compressed: Single = rows[: len(block.shares)]
-        np.matmul(block.shares, found, out=compressed)
+        found = patterns[block.patterns]
+        height = len(block.shares)
+        values = at_knots[: height * knots].reshape(height, knots)
+        np.matmul(block.shares, found[:, :knots], out=values)
+        slopes = leading[: height * plan.directions.shape[1]].reshape(height, -1)
+        np.matmul(block.shares, found[:, knots:], out=slopes)
         beside = _beside_patterns(plan, found)
         last = first + len(block.rows)
         evaluated += search_block(
@@ -59,7 +62,8 @@ def find_peaks(model: ReducedModel, response: ReducedResponse) -> StressPeaks:
             block.dropped,
             beside,
             np.maximum(beside[:-1], beside[1:]) + plan.spread_deviation,
-            compressed.reshape(len(block.rows), 6, -1),
+            values.reshape(len(block.rows), 6, -1),
+            slopes.reshape(len(block.rows), 6, -1),
             plan.coordinates,
             plan.knots,
             plan.knot_deviation,

@@ -20,7 +20,7 @@ from solver.inertia_relief.damping import RayleighDamping
 from solver.inertia_relief.reduced_stress import ReducedStress, no_stress
 
 #: Changes whenever the stored arrays change their meaning.
-FORMAT = 5
+FORMAT = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,9 +53,9 @@ class ReducedModel:
         return self.stress.element_count
 
     def turned(self, axes: Array) -> "ReducedModel":
-        """Return the model without stress in coordinates along orthonormal ``axes`` (m, m)."""
-        turn = np.eye(6 + self.size)
-        turn[6:, 6:] = axes
+        """Return the model without stress in coordinates along orthonormal ``axes`` (m, k)."""
+        turn = np.zeros((6 + self.size, 6 + axes.shape[1]))
+        turn[:6, :6], turn[6:, 6:] = np.eye(6), axes
         single = turn.astype(np.float32)
         operators = np.stack([single.T @ part @ single for part in self.rate_operators])
         return replace(
@@ -65,7 +65,7 @@ class ReducedModel:
             rate_norms=rate_norms(operators),
             applied=turn.T @ self.applied,
             inertia=turn.T @ self.inertia,
-            stress=no_stress(self.size),
+            stress=no_stress(axes.shape[1]),
         )
 
     def save(self, folder: Path) -> None:

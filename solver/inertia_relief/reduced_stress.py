@@ -23,7 +23,7 @@ class StressBlock:
 
     rows: Single  #: (n, 6, m) see `StressRows`
     points: Single  #: (n, 8, 5) of beams, (n, 0, 5) of shells
-    patterns: Single  #: (r, m) of the coordinates
+    patterns: slice  #: rows of `ReducedStress.patterns`
     shares: Single  #: (6 n, r) of the patterns
     squares: Single  #: (n, p) see `measure_squares`, of the compressed rows
     dropped: Single  #: (n,) largest stress left out for unit norm of coordinates / spread
@@ -43,7 +43,7 @@ class ReducedStress:
     beam_rows: Single  #: (n_beams, 6, m) five rows of normal stress, sqrt(3) times the shear
     beam_points: Single  #: (n_beams, 8, 5) normal stress of the points from the five rows
     pattern_counts: IntArray  #: (blocks,)
-    patterns: Single  #: (sum of the counts, m)
+    patterns: Single  #: (sum of the counts, m) of the coordinates
     shares: Single  #: block by block
     shell_squares: Single  #: (n_shells, 2) see `StressBlock`
     beam_squares: Single  #: (n_beams, 8) see `StressBlock`
@@ -71,7 +71,7 @@ class ReducedStress:
                 yield StressBlock(
                     rows=exact,
                     points=np.asarray(points[part]),
-                    patterns=np.asarray(self.patterns[pattern : pattern + count]),
+                    patterns=slice(pattern, pattern + count),
                     shares=np.asarray(shares).reshape(height, count),
                     squares=np.asarray(squares[part]),
                     dropped=np.asarray(self.dropped[element : element + len(exact)]),

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from solver.aircraft.airframe import Airframe
 
 #: Sink rate [m/s] with drift and roll rate [deg, deg/s], pitch [deg], roll [deg]: all combined.
-_SINK = ((1.5, 2.0, 1.0), (3.0, -2.0, -2.0))
-_PITCH = (-2.0, 3.0, 8.0)
+_SINK = ((1.0, 2.0, 1.0), (2.2, -3.0, 3.0), (3.4, 1.0, -2.0))
+_PITCH = (-2.5, 1.0, 4.5, 8.0)
 _ROLL = (0.0, 3.0)
 #: Fill of every tank and bay, in turn.
 _FILL = (0.1, 0.5, 0.9, 0.3, 0.7)
