@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numba
 import numpy as np
+from scipy.sparse import coo_array, csr_array
 
 from solver.arrays import Array, IntArray
 from solver.fe.model import FiniteElementModel, Interpolation
@@ -64,6 +65,45 @@ class FiniteConstraints:
             at.rotations,
             loads,
         )
+
+    def transfer(self, at: Configuration, free_nodes: IntArray) -> csr_array:
+        """Motion (6 n, 6 nf) of all nodes from that of the free ones, to first order.
+
+        Displacements and spins of every node stand in axes that have turned with it.
+        """
+        count = len(at.positions)
+        blocks = np.zeros((len(self.leaders), 6, 6))
+        _linearised(
+            self.nodes,
+            self.is_rigid,
+            self.arms,
+            self.starts,
+            self.leaders,
+            self.weights,
+            self.levers,
+            at.positions,
+            at.rotations,
+            blocks,
+        )
+        nodes = np.repeat(self.nodes, np.diff(self.starts))
+        halves = (len(self.leaders), 2, 3, 2, 3)
+        turned = np.einsum(
+            "kji,kajbl,klm->kaibm",
+            at.rotations[nodes],
+            blocks.reshape(halves),
+            at.rotations[self.leaders],
+        ).reshape(-1, 6, 6)
+        free = (6 * free_nodes[:, None] + np.arange(6)).ravel()
+        rows = np.repeat(6 * nodes[:, None] + np.arange(6), 6, axis=1).ravel()
+        columns = np.tile(6 * self.leaders[:, None] + np.arange(6), (1, 6)).ravel()
+        entries = np.concatenate([np.ones(len(free)), turned.ravel()])
+        indices = (np.concatenate([free, rows]), np.concatenate([free, columns]))
+        step = csr_array(coo_array((entries, indices), shape=(6 * count, 6 * count)))
+        whole = step
+        # leaders that are dependent themselves take another step for every link of their chain
+        for _ in range(np.isin(self.leaders, self.nodes).sum()):
+            whole = csr_array(step @ whole)
+        return csr_array(whole[:, free])
 
 
 def finite_constraints(model: FiniteElementModel) -> FiniteConstraints:
@@ -249,3 +289,60 @@ def _carry_back(
                 loads[at, 1] += w * (load[1] + share[2] * arm[0] - share[0] * arm[2])
                 loads[at, 2] += w * (load[2] + share[0] * arm[1] - share[1] * arm[0])
         loads[nodes[c], :] = 0.0
+
+
+@numba.njit(cache=True)
+def _linearised(
+    nodes: IntArray,
+    is_rigid: IntArray,
+    arms: Array,
+    starts: IntArray,
+    leaders: IntArray,
+    weights: Array,
+    levers: Array,
+    positions: Array,
+    rotations: Array,
+    blocks: Array,
+) -> None:
+    """Motion of each dependent node from unit motions of its leaders, (l, 6, 6)."""
+    centre, arm, excess = np.empty(3), np.empty(3), np.empty(3)
+    couple, spin, inertia = np.empty(3), np.empty(3), np.empty((3, 3))
+    for c in range(len(nodes)):
+        part = slice(starts[c], starts[c + 1])
+        turn = rotations[nodes[c]]
+        if not is_rigid[c]:
+            _centre(leaders[part], weights[part], positions, centre)
+            _balance(
+                leaders[part],
+                weights[part],
+                levers[part],
+                centre,
+                positions,
+                turn,
+                inertia,
+                excess,
+            )
+        for k in range(starts[c], starts[c + 1]):
+            for column in range(6):
+                spin[:] = 0.0
+                if is_rigid[c]:
+                    share = 1.0
+                    if column >= 3:
+                        spin[column - 3] = 1.0
+                elif column < 3:
+                    share = weights[k]
+                    _turned(turn, levers[k], arm)
+                    # lever x unit displacement
+                    couple[column] = 0.0
+                    couple[(column + 1) % 3] = share * arm[(column + 2) % 3]
+                    couple[(column + 2) % 3] = -share * arm[(column + 1) % 3]
+                    solved(inertia, couple, spin)
+                else:
+                    continue
+                _turned(turn, arms[c], arm)
+                blocks[k, 0, column] = spin[1] * arm[2] - spin[2] * arm[1]
+                blocks[k, 1, column] = spin[2] * arm[0] - spin[0] * arm[2]
+                blocks[k, 2, column] = spin[0] * arm[1] - spin[1] * arm[0]
+                if column < 3:
+                    blocks[k, column, column] += share
+                blocks[k, 3:, column] = spin

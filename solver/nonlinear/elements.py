@@ -127,7 +127,7 @@ class CorotationalElements:
         """Corotated forces K d, conjugate to the deformations."""
         return Deformations(
             tuple(
-                _products(group.stiffness, part)
+                element_products(group.stiffness, part)
                 for group, part in zip(self.groups, deformations.parts, strict=True)
             )
         )
@@ -163,7 +163,7 @@ class CorotationalElements:
     def stresses(self, deformations: "Deformations") -> tuple[Array, Array]:
         """Stress rows (6 n_shells,) and (9 n_beams,) as `solver.fe.stress` has them [Pa]."""
         quads, triangles, beams = (
-            _products(group.stress, part).ravel()
+            element_products(group.stress, part).ravel()
             for group, part in zip(self.groups, deformations.parts, strict=True)
         )
         return np.concatenate([quads, triangles]), beams
@@ -273,7 +273,8 @@ def _multiply(matrices: Array, vectors: Array, out: Array) -> None:
             out[m, i] = total
 
 
-def _products(matrices: Array, vectors: Array) -> Array:
+def element_products(matrices: Array, vectors: Array) -> Array:
+    """Matrices (m, r, d) times vectors (m, d), element by element; (m, r)."""
     out = np.empty(matrices.shape[:2])
     _multiply(matrices, vectors, out)
     return out

@@ -74,10 +74,7 @@ class MassPoints:
         moment of the loads is that of the forces at their places.
         """
         beams = self._beams
-        # a node is named once among the shell nodes
-        out[self.shell_nodes, :3] += forces[: beams.start]
-        beside = places[: beams.start] - at.positions[self.shell_nodes]
-        out[self.shell_nodes, 3:] += np.cross(beside, forces[: beams.start])
+        _to_nodes(self.shell_nodes, at.positions, places[: beams.start], forces[: beams.start], out)
         beam_point_loads(
             self.beam_nodes,
             self.beam_offsets,
@@ -90,9 +87,7 @@ class MassPoints:
             forces[beams].reshape(len(self.beam_nodes), -1, 3),
             out,
         )
-        lumped = forces[beams.stop :]
-        arms = places[beams.stop :] - at.positions[self.lumped_nodes]
-        np.add.at(out, self.lumped_nodes, np.hstack([lumped, np.cross(arms, lumped)]))
+        _to_nodes(self.lumped_nodes, at.positions, places[beams.stop :], forces[beams.stop :], out)
 
     def _arms(self, at: Configuration) -> Array:
         arms: Array = np.einsum("kij,kj->ki", at.rotations[self.lumped_nodes], self.lumped_arms)
@@ -117,6 +112,23 @@ class RotaryBodies:
         out = np.empty((len(self.nodes), 3))
         _cayley_rates(self.nodes, before, after, step, out)
         return out
+
+
+@numba.njit(cache=True)
+def _to_nodes(
+    nodes: IntArray, positions: Array, places: Array, forces: Array, loads: Array
+) -> None:
+    """Add forces (k, 3) at their places to the loads of the nodes that carry them."""
+    for k in range(len(nodes)):
+        at = nodes[k]
+        x = places[k, 0] - positions[at, 0]
+        y = places[k, 1] - positions[at, 1]
+        z = places[k, 2] - positions[at, 2]
+        for i in range(3):
+            loads[at, i] += forces[k, i]
+        loads[at, 3] += y * forces[k, 2] - z * forces[k, 1]
+        loads[at, 4] += z * forces[k, 0] - x * forces[k, 2]
+        loads[at, 5] += x * forces[k, 1] - y * forces[k, 0]
 
 
 @numba.njit(cache=True)

@@ -14,6 +14,7 @@ from scipy.sparse import csr_array, eye_array, hstack
 
 from solver.arrays import Array, IntArray
 from solver.errors import ModelError
+from solver.fe.structure import Structure
 from solver.frames import BODY_STRUCTURAL, rotation_matrix
 from solver.inertia_relief.loads import LandingLoads, landing_loads
 
@@ -82,7 +83,8 @@ def directed_landing_loads(
         raise ModelError("the loads do not stand on the time grid of the landing's history")
     size = 6 * airframe.structure.model.node_count
     pins = (6 * airframe.pin_rows[:, None] + np.arange(6)).ravel()
-    shapes = hstack([_unit_columns(size, pins), _everywhere(airframe)])
+    air = free_shapes(airframe.structure, airframe.air_shapes)
+    shapes = hstack([_unit_columns(size, pins), air])
     return DirectedLoads(
         time=loads.time,
         shapes=csr_array(shapes),
@@ -105,11 +107,10 @@ def structural_attitude(attitude: Array) -> Array:
     return np.hstack([scalar, turned * BODY_STRUCTURAL])
 
 
-def _everywhere(airframe: "Airframe") -> csr_array:
-    """Air load shapes (6 n, 6), which stand on free freedoms, on all nodes."""
-    structure = airframe.structure
-    size = 6 * structure.model.node_count
-    return csr_array(_unit_columns(size, structure.free) @ csr_array(airframe.air_shapes))
+def free_shapes(structure: Structure, shapes: Array) -> csr_array:
+    """Give on all nodes, (6 n, k), the loads ``shapes`` (n_free, k) on the free freedoms."""
+    columns = _unit_columns(6 * structure.model.node_count, structure.free)
+    return csr_array(columns @ csr_array(shapes))
 
 
 def _unit_columns(size: int, rows: IntArray) -> csr_array:

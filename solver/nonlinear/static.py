@@ -68,7 +68,7 @@ def equilibrium_path(
             residual = (level * loads - structure.elements.static_loads(at)).ravel()[moving]
             if np.linalg.norm(residual) <= tolerance * scale:
                 break
-            tangent = tangent_stiffness(structure.elements, at, count)
+            tangent = tangent_stiffness(structure.elements, at)
             change = np.zeros(6 * count)
             change[moving] = splu(tangent[moving][:, moving].tocsc()).solve(residual)
             pose = _moved(pose, change.reshape(-1, 6), size)

@@ -18,6 +18,7 @@ from verification.flexible_airframe.figures import (
     spring_back_table,
     stick_plot,
 )
+from verification.flexible_airframe.pins import pin_comparison
 from verification.flexible_airframe.stress import (
     both_peaks,
     consistency_comparisons,
@@ -90,6 +91,7 @@ def chapter(run: Run) -> Chapter:
     if not run.quick:
         run.progress("convergence with the number of modes", 0.0)
         rows, table = settings_comparisons(models, approaches[1], all_landed[1], duration)
+        rows.append(pin_comparison(models, all_landed[1], duration))
         run.progress("convergence with the number of modes", 1.0)
         items += [table, Comparisons("Settings and limits", tuple(rows))]
     items += _stress_items(run, models, all_landed)

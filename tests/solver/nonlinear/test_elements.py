@@ -58,24 +58,25 @@ def test_loads_of_any_forces_have_no_resultant():
 
 
 def test_tangent_at_rest_is_the_linear_stiffness():
+    # by one-sided differences, hence right to about 1e-6
     structure, linear = mixed(), build_structure(mixed_model())
     at = structure.constraints.placed(initial_pose(structure.model.coordinates))
-    tangent = tangent_stiffness(structure.elements, at, structure.model.node_count)
+    tangent = tangent_stiffness(structure.elements, at)
     reduced = (linear.transformation.T @ tangent @ linear.transformation).toarray()
     largest = abs(linear.stiffness).max()
-    np.testing.assert_allclose(reduced, linear.stiffness.toarray(), atol=1e-9 * largest)
+    np.testing.assert_allclose(reduced, linear.stiffness.toarray(), atol=1e-5 * largest)
 
 
 def test_tangent_turns_with_the_body():
     structure = mixed()
     count = structure.model.node_count
     at = structure.constraints.placed(initial_pose(structure.model.coordinates))
-    rest = tangent_stiffness(structure.elements, at, count).toarray()
+    rest = tangent_stiffness(structure.elements, at).toarray()
     pose = initial_pose(structure.model.coordinates).rigidly_moved(FAR_TURN, np.zeros(3))
     turned = structure.constraints.placed(pose)
-    found = tangent_stiffness(structure.elements, turned, count).toarray()
+    found = tangent_stiffness(structure.elements, turned).toarray()
     blocks = np.kron(np.eye(2 * count), turned.rotations[0])
-    np.testing.assert_allclose(found, blocks @ rest @ blocks.T, atol=1e-8 * np.abs(rest).max())
+    np.testing.assert_allclose(found, blocks @ rest @ blocks.T, atol=1e-5 * np.abs(rest).max())
 
 
 def test_small_deformations_have_the_stresses_of_the_linear_analysis():
