@@ -49,7 +49,7 @@ def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array
         return np.eye(size), np.ones(size)
     covariance = np.zeros((size, size))
     for history in histories:
-        scaled = history / np.linalg.norm(history, axis=0).max()
+        scaled = history.astype(np.float64) / np.linalg.norm(history, axis=0).max()
         covariance += scaled @ scaled.T / (scaled.shape[1] * len(histories))
     squares, axes = np.linalg.eigh(covariance)
     squares = np.maximum(squares, 0.0)
