@@ -91,9 +91,11 @@ def box_beam(bays: int, fineness: int, has_ribs: bool) -> FiniteElementModel:
             corners = ((station, a, b), (station, c, d), (station + 1, c, d), (station + 1, a, b))
             quads.append([sections[corner] for corner in corners])
     for station in range(0, bays * fineness + 1, fineness) if has_ribs else ():
-        for j in range(fineness):
-            for k in range(fineness):
-                quads.append([sections[station, *at] for at in _square(j, k)])
+        quads += [
+            [sections[station, *at] for at in _square(j, k)]
+            for j in range(fineness)
+            for k in range(fineness)
+        ]
     return _shells(np.array(coordinates) * (SIDE / fineness), np.array(quads))
 
 

@@ -110,7 +110,7 @@ def paired(first: Modes, second: Modes) -> list[Pair]:
     return [Pair(row, int(best[row]), float(table[row, best[row]])) for row in range(len(first))]
 
 
-def likeness(first: Modes, second: Modes, within: float = 0.02) -> Array:
+def likeness(first: Modes, second: Modes, within: float) -> Array:
     """How much of each shape of ``first`` the modes of ``second`` near the best one hold.
 
     Modes of nearly the same frequency are only determined together: their assurances, which for
