@@ -20,7 +20,7 @@ from solver.nonlinear.rotations import moment_of_rotation_vector, rotation_vecto
 EXTENSION, END_A, END_B, DEFORMATIONS = 0, 1, 4, 7
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _ends(nodes: IntArray, offsets: Array, rotations: Array, arms: Array) -> None:
     """Turn the offsets of both ends (2, 3)."""
     for end in range(2):
@@ -33,7 +33,7 @@ def _ends(nodes: IntArray, offsets: Array, rotations: Array, arms: Array) -> Non
             )
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _frame(
     nodes: IntArray,
     arms: Array,
@@ -70,7 +70,7 @@ def _frame(
     return float(length)
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def beam_deformations(
     nodes: IntArray,
     offsets: Array,
@@ -119,7 +119,7 @@ def beam_deformations(
             rotation_vector(relative, out[m, 1 + 3 * end : 4 + 3 * end])
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _spread_frame_moment(
     moment: Array, length: float, frame: Array, carried: Array, ends: Array
 ) -> None:
@@ -148,7 +148,7 @@ def _spread_frame_moment(
             ends[end, 3 + i] += about_1 * frame[0, i] + about_2 * frame[1, i]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _to_nodes(nodes: IntArray, arms: Array, ends: Array, loads: Array) -> None:
     """Carry loads of the ends (2, 6) to their nodes, along the turned offsets."""
     for end in range(2):
@@ -161,7 +161,7 @@ def _to_nodes(nodes: IntArray, arms: Array, ends: Array, loads: Array) -> None:
         loads[at, 5] += x * ends[end, 1] - y * ends[end, 0]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def beam_loads(
     nodes: IntArray,
     offsets: Array,
@@ -193,7 +193,7 @@ def beam_loads(
         _to_nodes(nodes[m], arms, ends, loads)
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def beam_points(
     nodes: IntArray,
     offsets: Array,
@@ -229,7 +229,7 @@ def beam_points(
                 out[m, p, i] = (1.0 - s) * a + s * b + in_1 * frame[1, i] + in_2 * frame[2, i]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _slopes(nodes: IntArray, initial: Array, frame: Array, rotations: Array, slopes: Array) -> None:
     """Components along e2 and e3 of the initial e1 carried by each end, (2, 2)."""
     for end in range(2):
@@ -246,7 +246,7 @@ def _slopes(nodes: IntArray, initial: Array, frame: Array, rotations: Array, slo
             slopes[end, row] = value
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def beam_point_loads(
     nodes: IntArray,
     offsets: Array,
@@ -315,7 +315,7 @@ def beam_point_loads(
         _to_nodes(nodes[m], arms, ends, loads)
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _along(turn: Array, initial: Array, frame: Array) -> float:
     """Component along e1 of the initial e1 carried by a node."""
     value = 0.0

@@ -4,6 +4,9 @@ Stresses stiffen or soften a structure by its geometric stiffness K_G, the rate 
 changes along the linear displacement.  At the factor f where ``(K + f K_G) x = 0`` a displacement x
 costs nothing.  A linear analysis is worth something as long as all factors lie well above one;
 where they do not, the nonlinear reference bends aside and the linear one does not notice.
+
+The loads keep their direction.  A free structure therefore also has factors at which it would
+rather stand otherwise under them, as a pendulum does; the shapes of these are nearly rigid.
 """
 
 from dataclasses import dataclass

@@ -153,13 +153,13 @@ def _interpolation(
     return False, arm, np.asarray(interpolation.nodes, dtype=np.int64), weights, points - centre
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _turned(matrix: Array, vector: Array, out: Array) -> None:
     for i in range(3):
         out[i] = matrix[i, 0] * vector[0] + matrix[i, 1] * vector[1] + matrix[i, 2] * vector[2]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _balance(
     leaders: IntArray,
     weights: Array,
@@ -188,7 +188,7 @@ def _balance(
         excess[2] += weights[k] * (lever[0] * present[1] - lever[1] * present[0])
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _centre(leaders: IntArray, weights: Array, positions: Array, centre: Array) -> None:
     centre[:] = 0.0
     for k in range(len(leaders)):
@@ -196,7 +196,7 @@ def _centre(leaders: IntArray, weights: Array, positions: Array, centre: Array) 
             centre[i] += weights[k] * positions[leaders[k], i]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _place(
     nodes: IntArray,
     is_rigid: IntArray,
@@ -240,7 +240,7 @@ def _place(
         rotations[nodes[c]] = turn
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _carry_back(
     nodes: IntArray,
     is_rigid: IntArray,
@@ -291,7 +291,7 @@ def _carry_back(
         loads[nodes[c], :] = 0.0
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _linearised(
     nodes: IntArray,
     is_rigid: IntArray,

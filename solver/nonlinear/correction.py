@@ -64,6 +64,10 @@ class Corrector:
         if self._is_due or self._always:
             self._factorise(at)
 
+    def renew(self, at: Configuration) -> None:
+        """Factorise whatever is due: the last matrix did not lead anywhere."""
+        self._factorise(at)
+
     def judge(self, evaluations: int) -> None:
         """Learn how many evaluations of the residual the step took."""
         self._is_due = evaluations > PATIENCE
@@ -90,10 +94,15 @@ class Corrector:
         self._scale = 1.0 / np.sqrt(matrix.diagonal())
         scaling = diags_array(self._scale)
         # settings as in `solver.inertia_relief.factor`, which works in double precision
-        self._factor = splu(
-            csc_matrix(scaling @ matrix @ scaling).astype(np.float32),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
+        try:
+            self._factor = splu(
+                csc_matrix(scaling @ matrix @ scaling).astype(np.float32),
+                permc_spec="MMD_AT_PLUS_A",
+                diag_pivot_thresh=0.0,
+                options={"SymmetricMode": True},
+            )
+        except RuntimeError as error:
+            raise SimulationDivergedError(
+                "the equations of a step are singular: a part has neither stiffness nor inertia"
+            ) from error
         self.factorisations += 1

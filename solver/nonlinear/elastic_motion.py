@@ -11,7 +11,7 @@ from solver.arrays import Array, IntArray
 from solver.nonlinear.inertia import RotaryBodies
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _sums(places: Array, weights: Array, moments: Array, momenta: Array) -> tuple[Array, Array]:
     """Inertia tensor and angular momentum of mass points about their centre, and the centre.
 
@@ -43,7 +43,7 @@ def _sums(places: Array, weights: Array, moments: Array, momenta: Array) -> tupl
     return inertia, vectors
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _subtract_rigid(
     weights: Array, moments: Array, velocity: Array, rate: Array, momenta: Array
 ) -> None:
@@ -55,7 +55,7 @@ def _subtract_rigid(
         momenta[p, 2] -= weights[p] * velocity[2] + rate[0] * y - rate[1] * x
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _turned_inertia(nodes: IntArray, inertia: Array, rotations: Array, out: Array) -> None:
     """Inertia tensors (k, 3, 3) of rotary bodies in inertial axes."""
     half = np.empty((3, 3))

@@ -262,7 +262,7 @@ def _freedoms_of_deformations(geometry: BeamGeometry) -> Array:
     return np.asarray(freedoms, dtype=np.float64)
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _multiply(matrices: Array, vectors: Array, out: Array) -> None:
     """Matrices (m, r, d) times vectors (m, d), element by element."""
     for m in range(matrices.shape[0]):

@@ -114,7 +114,7 @@ class RotaryBodies:
         return out
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _to_nodes(
     nodes: IntArray, positions: Array, places: Array, forces: Array, loads: Array
 ) -> None:
@@ -131,7 +131,7 @@ def _to_nodes(
         loads[at, 5] += x * forces[k, 1] - y * forces[k, 0]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _rotary_momentum(
     nodes: IntArray, inertia: Array, rotations: Array, rates: Array, out: Array
 ) -> None:
@@ -148,7 +148,7 @@ def _rotary_momentum(
             out[k, i] = turn[i, 0] * body[0] + turn[i, 1] * body[1] + turn[i, 2] * body[2]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _cayley_rates(nodes: IntArray, before: Array, after: Array, step: float, out: Array) -> None:
     """Skew part of ``before' after`` times 4 / (1 + trace), an axis of length 2 tan(angle / 2)."""
     relative = np.empty((3, 3))

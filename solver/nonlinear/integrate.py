@@ -7,6 +7,7 @@ from time import process_time
 import numpy as np
 
 from solver.arrays import Array
+from solver.errors import SimulationDivergedError
 from solver.inertia_relief.damping import RayleighDamping
 from solver.nonlinear.account import Account
 from solver.nonlinear.checkpoint import Checkpoint, Keeper, Recorder, RunState, Sample
@@ -82,7 +83,12 @@ def integrate_nonlinear(
         middle = loads.at(began + (run.step + 0.5) * step)
         equations = MidpointStep(structure, run.motion, step, damping, middle, loads.gravity)
         corrector.prepare(run.motion.at)
-        solved = solve_step(equations, corrector, _guess(run, structure), tolerance, size)
+        try:
+            solved = solve_step(equations, corrector, _guess(run, structure), tolerance, size)
+        except SimulationDivergedError:
+            corrector.renew(run.motion.at)
+            guess = run.guesses[-1] if run.guesses else np.zeros((len(structure.free_nodes), 6))
+            solved = solve_step(equations, corrector, guess, tolerance, size)
         corrector.judge(solved.iterations)
         account = _accounted(run, structure, middle, loads.gravity, solved, step)
         run.step, run.motion, run.account = run.step + 1, solved.trial.motion, account

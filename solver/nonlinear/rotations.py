@@ -47,7 +47,7 @@ def composed(second: Array, first: Array) -> Array:
     return unit
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def rotation_vector(matrix: Array, out: Array) -> None:
     """Rotation vector [rad] of a rotation matrix (3, 3), for turns well below pi."""
     x = 0.5 * (matrix[2, 1] - matrix[1, 2])
@@ -63,7 +63,7 @@ def rotation_vector(matrix: Array, out: Array) -> None:
     out[0], out[1], out[2] = factor * x, factor * y, factor * z
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def moment_of_rotation_vector(vector: Array, moment: Array, out: Array) -> None:
     """Moment [N m] that does the work of ``moment``, conjugate to a rotation ``vector`` (3,).
 
@@ -86,7 +86,7 @@ def moment_of_rotation_vector(vector: Array, moment: Array, out: Array) -> None:
     out[2] = moment[2] + 0.5 * a2 + factor * (vector[0] * a1 - vector[1] * a0)
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def solved(matrix: Array, right: Array, out: Array) -> None:
     """Solution of three linear equations (Cramer)."""
     a, b, c = matrix[0, 0], matrix[0, 1], matrix[0, 2]
@@ -99,7 +99,7 @@ def solved(matrix: Array, right: Array, out: Array) -> None:
     out[2] = (a * (e * z - y * h) - b * (d * z - y * g) + x * (d * h - e * g)) / determinant
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def turn_further(vector: Array, matrix: Array) -> None:
     """Turn the columns of ``matrix`` (3, 3) by a rotation vector [rad], in place."""
     square = vector[0] ** 2 + vector[1] ** 2 + vector[2] ** 2

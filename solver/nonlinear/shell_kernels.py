@@ -21,7 +21,7 @@ from solver.arrays import Array, IntArray
 from solver.nonlinear.rotations import moment_of_rotation_vector, rotation_vector
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _gather(nodes: IntArray, positions: Array, corners: Array) -> None:
     """Corners (k, 3) about their mean."""
     count = len(nodes)
@@ -35,7 +35,7 @@ def _gather(nodes: IntArray, positions: Array, corners: Array) -> None:
             corners[a, c] -= mean
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _frame(corners: Array, flat: Array, frame: Array) -> None:
     """Rows e1, e2, e3 of the frame at ``corners`` (k, 3) that fits ``flat`` (k, 2) best."""
     count = len(corners)
@@ -75,7 +75,7 @@ def _frame(corners: Array, flat: Array, frame: Array) -> None:
     frame[1, 2] = cosine * across2 - sine * along[2]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _turn(frame: Array, initial: Array, turn: Array) -> None:
     """Turn R = frame' initial of the frame since the beginning."""
     for i in range(3):
@@ -87,7 +87,7 @@ def _turn(frame: Array, initial: Array, turn: Array) -> None:
             )
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def shell_deformations(
     nodes: IntArray,
     initial_corners: Array,
@@ -136,7 +136,7 @@ def shell_deformations(
             rotation_vector(relative, out[m, 6 * a + 3 : 6 * a + 6])
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def shell_loads(
     nodes: IntArray,
     initial_frames: Array,
@@ -193,7 +193,7 @@ def shell_loads(
                 loads[nodes[m, a], i] += turned[a, i]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, error_model="numpy")
 def _subtract_frame_forces(
     flat: Array, local: Array, moment: Array, frame: Array, loads: Array
 ) -> None:

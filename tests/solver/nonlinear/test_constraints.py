@@ -47,6 +47,26 @@ def test_small_motion_of_dependent_nodes_is_that_of_the_linear_constraints():
     np.testing.assert_allclose(spins[:, 2, 1], expected[:, 3], atol=1e-8)
 
 
+def test_linearised_motion_of_dependent_nodes_is_its_derivative_at_any_turn():
+    structure = mixed()
+    pose = deformed(structure, 0.1)
+    at = structure.constraints.placed(pose)
+    direction = np.random.default_rng(11).normal(size=(len(structure.free_nodes), 6))
+    ahead, behind = (
+        structure.constraints.placed(further(structure, pose, share * direction))
+        for share in (1e-6, -1e-6)
+    )
+    velocity = (ahead.positions - behind.positions) / 2e-6
+    spin = (ahead.rotations - behind.rotations) / 2e-6 @ np.swapaxes(at.rotations, 1, 2)
+    turns = at.rotations[structure.free_nodes]
+    own = np.einsum("kji,kaj->kai", turns, direction.reshape(-1, 2, 3)).ravel()
+    found = structure.constraints.transfer(at, structure.free_nodes) @ own
+    inertial = np.einsum("kij,kaj->kai", at.rotations, found.reshape(-1, 2, 3))
+    np.testing.assert_allclose(inertial[:, 0], velocity, atol=1e-8)
+    axial = np.stack([spin[:, 2, 1], spin[:, 0, 2], spin[:, 1, 0]], axis=1)
+    np.testing.assert_allclose(inertial[:, 1], axial, atol=1e-8)
+
+
 def test_forces_on_dependent_nodes_do_the_same_work_on_their_leaders():
     structure = mixed()
     pose = deformed(structure, 0.1)

@@ -73,14 +73,14 @@ def energy(sample: Sample) -> float:
     return kinetic_energy(structure, sample.motion) + strain
 
 
-def test_free_flight_keeps_momentum_and_energy_over_revolutions():
-    # 1.8 s at 7 rad/s: two revolutions, about no principal axis, while the body rings
-    samples = fly(360, step=5e-3)
+def test_free_flight_keeps_momentum_and_energy_over_a_revolution():
+    # 1.2 s at 7 rad/s: more than a revolution, about no principal axis, while the body rings
+    samples = fly(240, step=5e-3)
     structure, first = mixed(), samples[0]
     turned = np.trace(samples[45].motion.at.rotations[0])
     assert turned == pytest.approx(1 + 2 * np.cos(1.6), abs=0.1)  # rad, after an eighth
     kept = momenta(structure, first.motion)
-    for sample in samples[::30]:
+    for sample in samples[::20]:
         found = momenta(structure, sample.motion)
         np.testing.assert_allclose(found[:3], kept[:3], rtol=1e-9)
         np.testing.assert_allclose(found[3:], kept[3:], atol=1e-9 * np.linalg.norm(kept[3:]))
@@ -88,7 +88,7 @@ def test_free_flight_keeps_momentum_and_energy_over_revolutions():
     strain = mixed().elements.strain_energy(first.motion.deformations)
     # second order in time, without a trend
     assert np.abs(energies - energies[0]).max() < 5e-4 * strain
-    assert abs(energies[-120:].mean() - energies[:120].mean()) < 1e-4 * strain
+    assert abs(energies[-80:].mean() - energies[:80].mean()) < 1e-4 * strain
 
 
 def test_damping_takes_energy_but_no_momentum():
