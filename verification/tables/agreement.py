@@ -1,0 +1,147 @@
+"""How far the analyses of a landing agree: most stressed element, whole fields, peaks."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.aircraft.airframe import Airframe
+from solver.arrays import Array, BoolArray
+from verification.tables.analyses import Analysis, FullOrder, Nonlinear
+from verification.tables.landings import GearPeak, Landed
+
+#: Elements above this share of the largest stress take part in the comparison of fields.
+STRESSED = 0.2
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """One landing by all three analyses."""
+
+    landed: Landed
+    nonlinear: Nonlinear
+    full: FullOrder
+    fast: Analysis
+
+    @property
+    def title(self) -> str:
+        """Words that name the landing."""
+        return self.landed.case.title
+
+    @property
+    def analyses(self) -> tuple[tuple[str, Analysis], ...]:
+        """Name and stresses of each analysis."""
+        return (
+            ("nonlinear", self.nonlinear.stress),
+            ("EIR, full order", self.full.stress),
+            ("EIR, reduced", self.fast),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Maximum:
+    """Most stressed element at one instant, by each analysis."""
+
+    time: float  #: [s]
+    elements: tuple[int, int, int]  #: nonlinear, full order, reduced
+    stresses: tuple[float, float, float]  #: [Pa]
+    #: Nonlinear stress of the full order's most stressed element, over the largest one.
+    standing: float
+    at_same: float  #: full-order stress of the nonlinear analysis's most stressed element [Pa]
+
+    @property
+    def is_same(self) -> bool:
+        """Whether nonlinear analysis and full order find the same element."""
+        return self.elements[0] == self.elements[1]
+
+
+def maxima(followed: Followed) -> list[Maximum]:
+    """Most stressed elements at the instants of the table."""
+    found = []
+    fields = [analysis.fields for _, analysis in followed.analyses]
+    for row, sample in enumerate(followed.landed.instants):
+        elements = [int(field[row].argmax()) for field in fields]
+        first, second, third = (
+            float(field[row, element]) for field, element in zip(fields, elements, strict=True)
+        )
+        found.append(
+            Maximum(
+                time=float(followed.landed.loads.time[sample]),
+                elements=(elements[0], elements[1], elements[2]),
+                stresses=(first, second, third),
+                standing=float(fields[0][row, elements[1]]) / first,
+                at_same=float(fields[1][row, elements[0]]),
+            )
+        )
+    return found
+
+
+def distance(airframe: Airframe, first: int, second: int) -> float:
+    """Distance between the centroids of two elements [m]."""
+    return float(np.linalg.norm(airframe.centroids[first] - airframe.centroids[second]))
+
+
+@dataclass(frozen=True, slots=True)
+class FieldAgreement:
+    """Full-order against nonlinear stresses of all elements at the peak of a gear's load."""
+
+    peak: GearPeak
+    time: float  #: [s]
+    correlation: float
+    deviation: float  #: RMS of the relative difference of the stressed elements
+    bias: float  #: median of that difference
+    stressed: int  #: number of these elements
+    compressed: float  #: median difference of the stressed shells that are pressed together
+    stretched: float  #: and of those that are not
+    largest: float  #: largest difference of any element, over the largest stress
+
+
+def field_agreements(followed: Followed) -> list[FieldAgreement]:
+    """Compare the fields at the peak of every gear's load."""
+    landed, found = followed.landed, []
+    for peak in landed.peaks:
+        row = landed.field(peak)
+        reference = followed.nonlinear.stress.fields[row]
+        field = followed.full.stress.fields[row]
+        chosen = reference > STRESSED * reference.max()
+        difference = relative(field, reference)
+        pressed = pressed_shells(followed.full, row)
+        found.append(
+            FieldAgreement(
+                peak=peak,
+                time=float(landed.loads.time[peak.sample]),
+                correlation=float(np.corrcoef(reference, field)[0, 1]),
+                deviation=float(np.sqrt(np.mean(difference[chosen] ** 2))),
+                bias=float(np.median(difference[chosen])),
+                stressed=int(chosen.sum()),
+                compressed=_median(difference[chosen & pressed]),
+                stretched=_median(difference[chosen & ~pressed & _shells(followed.full, chosen)]),
+                largest=float(np.abs(field - reference).max() / reference.max()),
+            )
+        )
+    return found
+
+
+def relative(values: Array, reference: Array) -> Array:
+    """Relative differences; none where the reference is zero."""
+    return np.asarray(values / np.where(reference > 0, reference, np.inf) - 1.0)
+
+
+def pressed_shells(full: FullOrder, row: int) -> BoolArray:
+    """Elements (ne,) that are shells whose membrane stress is mostly compression.
+
+    Mostly: the principal stress of compression is above half of the von Mises stress.
+    """
+    field, least = full.stress.fields[row], full.compression[row]
+    pressed = np.zeros(len(field), dtype=bool)
+    pressed[: len(least)] = -least > 0.5 * field[: len(least)]
+    return pressed
+
+
+def _shells(full: FullOrder, like: BoolArray) -> BoolArray:
+    shells = np.zeros_like(like)
+    shells[: full.compression.shape[1]] = True
+    return shells
+
+
+def _median(values: Array) -> float:
+    return float(np.median(values)) if len(values) else float("nan")
