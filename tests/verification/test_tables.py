@@ -15,6 +15,7 @@ from verification.tables.agreement import Followed, field_agreements, maxima, re
 from verification.tables.analyses import full_order, nonlinear, reduced, reduced_stress
 from verification.tables.figures import wheel_height
 from verification.tables.landings import INSTANTS, PAPER, Landed, landed
+from verification.tables.panels import PanelStability
 
 DURATION = 0.06
 
@@ -80,15 +81,26 @@ def test_reduced_stress_is_what_the_peak_search_finds(model, touchdown):
     np.testing.assert_allclose(every.max(axis=1), find_peaks(model, response).stress, rtol=2e-5)
 
 
-def test_analyses_agree_on_a_soft_landing(followed):
-    for maximum in maxima(followed):
+def test_analyses_agree_on_a_soft_landing(airframe, followed):
+    for maximum in maxima(airframe, followed):
         first, full, fast = maximum.stresses
         assert full == pytest.approx(first, rel=TOLERANCE)
         assert fast == pytest.approx(full, rel=TOLERANCE)
         assert (maximum.standing == 1.0) == maximum.is_same
     assert followed.nonlinear.drift.max() < np.radians(0.5)
-    for found in field_agreements(followed):
+    for found in field_agreements(airframe, followed):
         assert found.correlation > 0.999
+
+
+def test_critical_factor_is_inverse_to_the_stress(airframe, followed):
+    displacement = followed.full.displacements[0]
+    element = int(followed.full.stress.fields[0].argmax())
+    once, twice = (
+        PanelStability(airframe, followed.landed.factors, size * displacement).factor(element)
+        for size in (1.0, 2.0)
+    )
+    assert once > 0
+    assert twice == pytest.approx(once / 2, rel=1e-4)
 
 
 def test_stored_analyses_are_taken_again(airframe, touchdown, followed, tmp_path):

@@ -5,12 +5,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.aircraft.airframe import Airframe
-from solver.arrays import Array, BoolArray
+from solver.arrays import Array, BoolArray, IntArray
 from verification.tables.analyses import Analysis, FullOrder, Nonlinear
 from verification.tables.landings import GearPeak, Landed
+from verification.tables.panels import PanelStability
 
 #: Elements above this share of the largest stress take part in the comparison of fields.
 STRESSED = 0.2
+#: Difference over the largest stress from which an element counts as one that the analyses part at.
+APART = 0.1
+#: Difference up to which they agree.
+AGREED = 0.02
+#: Elements of either kind whose neighbourhoods are examined, at most.
+EXAMINED = 40
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,14 +54,21 @@ class Maximum:
     #: Nonlinear stress of the full order's most stressed element, over the largest one.
     standing: float
     at_same: float  #: full-order stress of the nonlinear analysis's most stressed element [Pa]
+    #: At which the full order's stresses buckle the panel around that element.
+    critical_factor: float
 
     @property
     def is_same(self) -> bool:
         """Whether nonlinear analysis and full order find the same element."""
         return self.elements[0] == self.elements[1]
 
+    @property
+    def difference(self) -> float:
+        """Of the full order's largest stress from the nonlinear one, relative."""
+        return self.stresses[1] / self.stresses[0] - 1.0
 
-def maxima(followed: Followed) -> list[Maximum]:
+
+def maxima(airframe: Airframe, followed: Followed) -> list[Maximum]:
     """Most stressed elements at the instants of the table."""
     found = []
     fields = [analysis.fields for _, analysis in followed.analyses]
@@ -63,6 +77,7 @@ def maxima(followed: Followed) -> list[Maximum]:
         first, second, third = (
             float(field[row, element]) for field, element in zip(fields, elements, strict=True)
         )
+        panels = _panels(airframe, followed, row)
         found.append(
             Maximum(
                 time=float(followed.landed.loads.time[sample]),
@@ -70,6 +85,7 @@ def maxima(followed: Followed) -> list[Maximum]:
                 stresses=(first, second, third),
                 standing=float(fields[0][row, elements[1]]) / first,
                 at_same=float(fields[1][row, elements[0]]),
+                critical_factor=panels.factor(elements[0]),
             )
         )
     return found
@@ -93,9 +109,12 @@ class FieldAgreement:
     compressed: float  #: median difference of the stressed shells that are pressed together
     stretched: float  #: and of those that are not
     largest: float  #: largest difference of any element, over the largest stress
+    apart: int  #: elements that differ by more than `APART` of the largest stress
+    factors_apart: Array  #: critical factors around some of them, those that differ most
+    factors_agreed: Array  #: and around some stressed elements that agree
 
 
-def field_agreements(followed: Followed) -> list[FieldAgreement]:
+def field_agreements(airframe: Airframe, followed: Followed) -> list[FieldAgreement]:
     """Compare the fields at the peak of every gear's load."""
     landed, found = followed.landed, []
     for peak in landed.peaks:
@@ -105,6 +124,11 @@ def field_agreements(followed: Followed) -> list[FieldAgreement]:
         chosen = reference > STRESSED * reference.max()
         difference = relative(field, reference)
         pressed = pressed_shells(followed.full, row)
+        size = np.abs(field - reference) / reference.max()
+        order = np.argsort(-size)
+        apart = order[size[order] > APART]
+        agreed = np.flatnonzero(chosen & (np.abs(difference) < AGREED))
+        panels = _panels(airframe, followed, row)
         found.append(
             FieldAgreement(
                 peak=peak,
@@ -115,10 +139,21 @@ def field_agreements(followed: Followed) -> list[FieldAgreement]:
                 stressed=int(chosen.sum()),
                 compressed=_median(difference[chosen & pressed]),
                 stretched=_median(difference[chosen & ~pressed & _shells(followed.full, chosen)]),
-                largest=float(np.abs(field - reference).max() / reference.max()),
+                largest=float(size.max()),
+                apart=len(apart),
+                factors_apart=_factors(panels, apart[:EXAMINED]),
+                factors_agreed=_factors(panels, agreed[:: -(-len(agreed) // EXAMINED) or 1]),
             )
         )
     return found
+
+
+def _panels(airframe: Airframe, followed: Followed, row: int) -> PanelStability:
+    return PanelStability(airframe, followed.landed.factors, followed.full.displacements[row])
+
+
+def _factors(panels: PanelStability, elements: IntArray) -> Array:
+    return np.array([panels.factor(int(element)) for element in elements])
 
 
 def relative(values: Array, reference: Array) -> Array:

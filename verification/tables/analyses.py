@@ -23,7 +23,7 @@ from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import landing_response
 from solver.nonlinear.landing import nonlinear_landing
 from solver.nonlinear.loads import structural_attitude
-from verification.run import Run
+from verification.run import ROOT, Run
 from verification.tables.landings import Landed
 from verification.tables.recorder import LinearRecorder
 
@@ -43,10 +43,15 @@ FULL_ORDER_SOURCES = (
         )
     ),
 )  # fmt: skip
+#: Statics and buckling take no part in a landing.
 NONLINEAR_SOURCES = (
     "solver/fe",
     "solver/aircraft",
-    "solver/nonlinear",
+    *(
+        f"solver/nonlinear/{path.name}"
+        for path in sorted((ROOT / "solver" / "nonlinear").glob("*.py"))
+        if path.stem not in ("static", "buckling")
+    ),
     *(
         f"solver/inertia_relief/{name}.py"
         for name in ("damping", "factor", "free_body", "loads", "motion", "static")
