@@ -18,8 +18,10 @@ from solver.nonlinear.midpoint import StepTrial
 from solver.nonlinear.structure import NonlinearStructure
 from solver.nonlinear.tangent import free_tangent
 
-#: A step that took more evaluations asks for a new factorisation before the next.
+#: A step that took more evaluations asks for a new factorisation before the next,
 PATIENCE = 4
+#: if it took that many more than the step right after the last factorisation.
+WORSE = 2
 
 
 class Corrector:
@@ -38,8 +40,6 @@ class Corrector:
     ----------
     mass : (n_free, n_free) sparse array
         Of the linear model.
-    always : bool
-        Factorise before every step, for structures that deform without limit.
     """
 
     def __init__(
@@ -48,20 +48,20 @@ class Corrector:
         mass: Any,
         step: float,
         damping: RayleighDamping,
-        always: bool = False,
     ) -> None:
         alpha, beta = damping.mass_coefficient, damping.stiffness_coefficient
-        self._structure, self._always = structure, always
+        self._structure = structure
         self._heavy = csc_array(mass) * (2 / step**2 + alpha / step)
         self._stiff = 0.5 + beta / step
         self._is_due = True
+        self._fresh = 0  # evaluations of the step right after the last factorisation
         self._factor: Any = None
         self._scale = np.empty(0)
         self.factorisations = 0
 
     def prepare(self, at: Configuration) -> None:
         """Learn where a step begins."""
-        if self._is_due or self._always:
+        if self._is_due:
             self._factorise(at)
 
     def renew(self, at: Configuration) -> None:
@@ -70,7 +70,9 @@ class Corrector:
 
     def judge(self, evaluations: int) -> None:
         """Learn how many evaluations of the residual the step took."""
-        self._is_due = evaluations > PATIENCE
+        if self._fresh == 0:
+            self._fresh = evaluations
+        self._is_due = evaluations > max(PATIENCE, self._fresh + WORSE)
 
     def correction(self, trial: StepTrial) -> Array:
         """Give the increments (nf, 6) that about cancel a trial's residual.
@@ -105,4 +107,5 @@ class Corrector:
             raise SimulationDivergedError(
                 "the equations of a step are singular: a part has neither stiffness nor inertia"
             ) from error
+        self._fresh = 0
         self.factorisations += 1

@@ -1,6 +1,7 @@
 """What is kept of a nonlinear run: peaks, fields at wanted times, the mean frame, the account."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import astuple, dataclass, fields
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -42,6 +43,19 @@ class NonlinearLanding:
     momenta: Array  #: (nt, 6) momentum, angular momentum about the origin [N s, N m s]
     impulses: Array  #: (nt, 6) of loads and gravity since the first sample
     report: NonlinearReport
+
+    def arrays(self) -> dict[str, Array]:
+        """Everything as named arrays, to be stored; `of` takes them back."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        values["report"] = np.array(astuple(self.report), dtype=np.float64)
+        return values
+
+    @classmethod
+    def of(cls, arrays: Mapping[str, Array]) -> "NonlinearLanding":
+        """Undo `arrays`."""
+        steps, iterations, seconds, factorisations, error = arrays["report"].tolist()
+        report = NonlinearReport(int(steps), int(iterations), seconds, int(factorisations), error)
+        return cls(**{**arrays, "report": report})  # type: ignore[arg-type]
 
     @property
     def energy_error(self) -> float:

@@ -5,16 +5,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse.linalg import splu
 
-from solver.arrays import Array, BoolArray
+from solver.arrays import Array, BoolArray, IntArray
 from solver.errors import ModelError, SimulationDivergedError
 from solver.nonlinear.configuration import Configuration, Pose, initial_pose
 from solver.nonlinear.rotations import composed, exponential_quaternions
 from solver.nonlinear.structure import NonlinearStructure
 from solver.nonlinear.tangent import tangent_stiffness
 
-MAXIMUM_ITERATIONS = 40
+MAXIMUM_ITERATIONS = 30
+#: Smallest part of the way to a level that is tried.
+_SMALLEST_SHARE = 1 / 64
 #: Largest translation [share of the structure's size] and turn [rad] of one iteration.
-_LARGEST_TURN = 0.5
+_LARGEST_TURN = 0.3
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +45,7 @@ def equilibrium_path(
     loads : (n, 6) array
         Forces and moments on the nodes that keep their direction [N, N m].
     levels : (k,) array
-        Shares of the loads, one after another.
+        Shares of the loads, one after another; the way to one is halved where it is too far.
     tolerance : float
         Residual forces and moments relative to the largest loads, where iteration stops.
 
@@ -56,30 +58,57 @@ def equilibrium_path(
     """
     if len(structure.constraints.nodes):
         raise ModelError("large-rotation statics is for structures without constraints")
-    count = structure.model.node_count
-    pose = initial_pose(structure.model.coordinates)
     moving = np.flatnonzero(~fixed.ravel())
-    size = float(np.ptp(structure.model.coordinates, axis=0).max())
     scale = float(np.linalg.norm(np.max(np.abs(levels)) * loads.ravel()[moving]))
-    positions, iterations = np.empty((len(levels), count, 3)), 0
-    for step, level in enumerate(levels):
+    newton = _Newton(structure, moving, loads, tolerance * scale)
+    pose, reached = initial_pose(structure.model.coordinates), 0.0
+    positions = np.empty((len(levels), structure.model.node_count, 3))
+    for row, level in enumerate(levels.tolist()):
+        share = 1.0
+        while reached != level:
+            target = level if share == 1.0 else reached + share * (level - reached)
+            found = newton.equilibrium(pose, target)
+            if found is not None:
+                pose, reached, share = found, target, 1.0
+            elif share > _SMALLEST_SHARE:
+                share /= 2
+            else:
+                raise SimulationDivergedError(
+                    f"no equilibrium at load level {target:g}, the last one was at {reached:g}"
+                )
+        positions[row] = pose.positions
+    final = structure.constraints.placed(pose)
+    return StaticPath(np.asarray(levels), positions, final, newton.iterations)
+
+
+class _Newton:
+    """Full Newton iteration at one load level."""
+
+    def __init__(
+        self, structure: NonlinearStructure, moving: IntArray, loads: Array, limit: float
+    ) -> None:
+        self._structure, self._moving, self._loads = structure, moving, loads
+        self._limit = limit
+        self._size = float(np.ptp(structure.model.coordinates, axis=0).max())
+        self.iterations = 0
+
+    def equilibrium(self, pose: Pose, level: float) -> Pose | None:
+        """Pose under a level of the loads, sought from another; None if it is not found."""
+        structure, moving = self._structure, self._moving
         for _ in range(MAXIMUM_ITERATIONS):
             at = structure.constraints.placed(pose)
-            residual = (level * loads - structure.elements.static_loads(at)).ravel()[moving]
-            if np.linalg.norm(residual) <= tolerance * scale:
-                break
-            tangent = tangent_stiffness(structure.elements, at)
-            change = np.zeros(6 * count)
+            residual = (level * self._loads - structure.elements.static_loads(at)).ravel()[moving]
+            size = float(np.linalg.norm(residual))
+            if size <= self._limit:
+                return pose
+            if not np.isfinite(size):
+                return None
+            tangent = tangent_stiffness(structure.elements, at, two_sided=True)
+            change = np.zeros(self._loads.size)
             change[moving] = splu(tangent[moving][:, moving].tocsc()).solve(residual)
-            pose = _moved(pose, change.reshape(-1, 6), size)
-            iterations += 1
-        else:
-            raise SimulationDivergedError(
-                f"no equilibrium at load level {level:g}: residual {np.linalg.norm(residual):.3g} "
-                f"of loads {scale:.3g} after {MAXIMUM_ITERATIONS} iterations"
-            )
-        positions[step] = pose.positions
-    return StaticPath(np.asarray(levels), positions, structure.constraints.placed(pose), iterations)
+            pose = _moved(pose, change.reshape(-1, 6), self._size)
+            self.iterations += 1
+        return None
 
 
 def _moved(pose: Pose, change: Array, size: float) -> Pose:

@@ -39,7 +39,7 @@ def plane_flight_items(run: Run) -> tuple[Item, ...]:
                     f"lower end at {time:g} s, {axis}",
                     own[k],
                     other[k],
-                    0.005,
+                    0.01 if run.quick else 0.002,
                     "m",
                     "exudyn, geometrically exact beam",
                     reason,
@@ -111,7 +111,7 @@ def space_flight_items(run: Run) -> tuple[Item, ...]:
 def spin_up_items(run: Run) -> tuple[Item, ...]:
     """Compare the steady extension with its closed form."""
     run.progress("spin-up beam", 0.0)
-    course = spin_up(step=0.04 if run.quick else 0.01)
+    course = spin_up(step=0.02 if run.quick else 0.01)
     run.progress("spin-up beam", 1.0)
     row = Comparison(
         "steady extension of the spin-up beam",

@@ -75,9 +75,7 @@ def flying_beam(count: int, step: float, end: float, course: Course, every: int 
         motion_of(structure, initial_pose(model.coordinates), np.zeros(3), np.zeros(3)),
         _loads(model, course),
         UNDAMPED,
-        Corrector(
-            structure, build_structure(model).inertia.mass_matrix(), step, UNDAMPED, always=True
-        ),
+        Corrector(structure, build_structure(model).inertia.mass_matrix(), step, UNDAMPED),
         step,
         round(end / step),
         samples.append,

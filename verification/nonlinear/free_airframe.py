@@ -133,7 +133,7 @@ def step_cost(airframe: Airframe, factors: Array, step: float = 5e-4, repeats: i
     structure = nonlinear_structure(loaded_model(airframe, factors))
     damping = airframe_damping(airframe)
     mass = airframe.inertia(factors).mass_matrix()
-    corrector = Corrector(structure, mass, step, damping, always=True)
+    corrector = Corrector(structure, mass, step, damping)
     pose = initial_pose(structure.model.coordinates)
     start = motion_of(structure, pose, np.zeros(3), np.array([0.05, 0.1, 0.02]))
     loads = np.zeros((structure.model.node_count, 6))
@@ -142,7 +142,7 @@ def step_cost(airframe: Airframe, factors: Array, step: float = 5e-4, repeats: i
     times = np.full((repeats, 3), np.inf)
     for row in times:
         marks = [process_time()]
-        corrector.prepare(start.at)
+        corrector.renew(start.at)
         marks.append(process_time())
         trial = equations.trial(increments)
         marks.append(process_time())

@@ -74,9 +74,7 @@ def spin_up(half: int = 5, step: float = 0.02, end: float = 20.0) -> SpinUp:
         motion_of(structure, initial_pose(points), np.zeros(3), np.zeros(3)),
         dead_loads(time, shapes, couple[:, None], np.zeros(3)),
         UNDAMPED,
-        Corrector(
-            structure, build_structure(model).inertia.mass_matrix(), step, UNDAMPED, always=True
-        ),
+        Corrector(structure, build_structure(model).inertia.mass_matrix(), step, UNDAMPED),
         step,
         round(end / step),
         samples.append,

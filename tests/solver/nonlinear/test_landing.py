@@ -16,6 +16,7 @@ from solver.landing.contact import Contact
 from solver.landing.simulate import SimulationOptions, simulate_landing
 from solver.nonlinear.landing import nonlinear_landing
 from solver.nonlinear.loads import directed_landing_loads, structural_attitude
+from solver.nonlinear.recorder import NonlinearLanding
 
 FACTORS = np.array([0.45, 0.3, 0.8])
 DURATION = 0.15
@@ -89,3 +90,10 @@ def test_loads_of_another_landing_are_refused(mini, history):
     object.__setattr__(loads, "time", loads.time + 0.5)
     with pytest.raises(ModelError, match="time grid"):
         directed_landing_loads(mini, history, loads)
+
+
+def test_result_can_be_stored_as_arrays_and_taken_back(landing):
+    again = NonlinearLanding.of(landing.arrays())
+    assert again.report == landing.report
+    np.testing.assert_array_equal(again.stress, landing.stress)
+    np.testing.assert_array_equal(again.momentum_error, landing.momentum_error)
