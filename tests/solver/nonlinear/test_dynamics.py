@@ -159,7 +159,8 @@ def test_interrupted_run_ends_where_an_uninterrupted_one_does(tmp_path, monkeypa
         fly(30, record=part, checkpoint=place)
     assert place.path.exists()
     fly(30, record=rest, checkpoint=place)
-    np.testing.assert_allclose(rest.heights, whole.heights, rtol=1e-11)
+    # a resumed run factorises anew: equal to the tolerance of the iteration
+    np.testing.assert_allclose(rest.heights, whole.heights, rtol=1e-8)
     assert not place.path.exists()
 
 
