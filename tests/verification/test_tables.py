@@ -9,13 +9,14 @@ from solver.inertia_relief.loading import assemble
 from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import landing_response
-from verification.chapters.tables import TOLERANCE
 from verification.run import Run
 from verification.tables.agreement import Followed, field_agreements, maxima, relative
 from verification.tables.analyses import full_order, nonlinear, reduced, reduced_stress
 from verification.tables.figures import wheel_height
 from verification.tables.landings import INSTANTS, PAPER, Landed, landed
+from verification.tables.largest import TOLERANCE
 from verification.tables.panels import PanelStability
+from verification.tables.submodel import panel_stress
 
 DURATION = 0.06
 
@@ -101,6 +102,24 @@ def test_critical_factor_is_inverse_to_the_stress(airframe, followed):
     )
     assert once > 0
     assert twice == pytest.approx(once / 2, rel=1e-4)
+
+
+def test_panel_of_small_loads_has_the_linear_stress(airframe, followed):
+    field, displacement = followed.full.stress.fields[0], followed.full.displacements[0]
+    for element in (int(field.argmax()), int(np.argsort(field)[-20])):
+        small = panel_stress(airframe, 1e-3 * displacement, element)
+        assert small == pytest.approx(1e-3 * field[element], rel=1e-3)
+
+
+def test_panel_under_the_landing_s_loads_has_the_nonlinear_stress(airframe, followed):
+    fields = followed.nonlinear.stress.fields[0], followed.full.stress.fields[0]
+    displacement = followed.full.displacements[0]
+    element = int(fields[0].argmax())
+    found = panel_stress(airframe, displacement, element)
+    # The small aircraft hardly differs from a linear one.
+    assert found == pytest.approx(fields[0][element], rel=0.02)
+    turned = displacement + airframe.structure.rigid_modes(np.zeros(3)) @ (0.02 * np.ones(6))
+    assert panel_stress(airframe, turned, element) == pytest.approx(found, rel=1e-6)
 
 
 def test_stored_analyses_are_taken_again(airframe, touchdown, followed, tmp_path):

@@ -9,6 +9,7 @@ from solver.arrays import Array, BoolArray, IntArray
 from verification.tables.analyses import Analysis, FullOrder, Nonlinear
 from verification.tables.landings import GearPeak, Landed
 from verification.tables.panels import PanelStability
+from verification.tables.submodel import panel_stress
 
 #: Elements above this share of the largest stress take part in the comparison of fields.
 STRESSED = 0.2
@@ -56,6 +57,7 @@ class Maximum:
     at_same: float  #: full-order stress of the nonlinear analysis's most stressed element [Pa]
     #: At which the full order's stresses buckle the panel around that element.
     critical_factor: float
+    panel: float  #: its stress in nonlinear statics of the panel, driven by the full order [Pa]
 
     @property
     def is_same(self) -> bool:
@@ -86,6 +88,7 @@ def maxima(airframe: Airframe, followed: Followed) -> list[Maximum]:
                 standing=float(fields[0][row, elements[1]]) / first,
                 at_same=float(fields[1][row, elements[0]]),
                 critical_factor=panels.factor(elements[0]),
+                panel=panel_stress(airframe, followed.full.displacements[row], elements[0]),
             )
         )
     return found
