@@ -1,7 +1,8 @@
 """What one landing costs, every way and every step side by side in one run (``make bench``).
 
-The full-order figure is measured on a stated part of the landing and, for the whole landing,
-computed from the measured cost of a step; everything else is measured on the whole landing.  The
+Full order and nonlinear analysis are measured on a stated part of the landing at the same steps
+and, for the whole landing, computed from the measured cost of a step; everything else is measured
+on the whole landing.  The
 rates of matrix products and of copying, measured in the same run, say what limits the fast path.
 """
 
@@ -30,7 +31,9 @@ from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.rate_loads import RateLoads
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import NEGLIGIBLE, SWEEP_TOLERANCE, landing_response
+from solver.landing.history import LandingHistory
 from solver.landing.simulate import SimulationOptions, simulate_landing
+from solver.nonlinear.landing import nonlinear_landing
 from solver.progress import Progress
 from verification.cases import CASES, Case
 from verification.run import ROOT, Run
@@ -88,6 +91,24 @@ def full_order_step(
     )
     steps = 32 * (len(marks) - 2)  # the first block holds the factorisation, the last is partial
     return (marks[-2] - marks[0]) / steps, steps
+
+
+def nonlinear_step(
+    airframe: Airframe, case: Case, history: LandingHistory, duration: float, progress: Progress
+) -> tuple[float, int]:
+    """Processor seconds of one nonlinear step and the number of steps it was measured on."""
+    marks: list[float] = []
+
+    def note(step: str, share: float) -> None:
+        if step == "nonlinear integration":
+            marks.append(process_time())
+        progress(step, share)
+
+    nonlinear_landing(
+        airframe, case.factors(airframe), history, duration=duration, substeps=1, progress=note
+    )
+    steps = len(marks) - 1  # the first step holds the factorisation
+    return (marks[-1] - marks[0]) / steps, steps
 
 
 def reduced_parts(
@@ -154,6 +175,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--duration", type=float, default=1.0, help="of the landing [s]")
     parser.add_argument("--full-order", type=float, default=0.25, help="full-order part [s]")
+    parser.add_argument("--nonlinear", type=float, default=0.06, help="nonlinear part [s]")
     options = parser.parse_args(arguments)
     progress, case = ConsoleProgress(), CASES[0]
     with threadpool_limits(1):
@@ -174,6 +196,7 @@ def main(arguments: list[str] | None = None) -> None:
             for other in CASES[1:]
         }
         step, steps = full_order_step(airframe, case, loads.until(options.full_order), progress)
+        slow, slow_steps = nonlinear_step(airframe, case, history, options.nonlinear, progress)
     count = len(loads.time) - 1
     settled = float(assessment.histories[0].time[-1])
     figures: dict[str, float] = {
@@ -187,6 +210,11 @@ def main(arguments: list[str] | None = None) -> None:
         "full_order_steps_measured": steps,
         "full_order_step_s": step,
         "full_order_landing_s": step * count,
+        "nonlinear_steps_measured": slow_steps,
+        "nonlinear_step_s": slow,
+        "nonlinear_landing_s": slow * count,
+        "nonlinear_over_full_order": slow / step,
+        "nonlinear_over_reduced": slow * count / parts["integration_and_peaks_s"],
         "full_order_over_reduced": step * count / parts["integration_and_peaks_s"],
         **others,
         "assessment_landing_s": settled,
@@ -212,6 +240,12 @@ def report(figures: dict[str, float], case: Case) -> None:
     rows = [
         ("landing simulation", "simulation_s"),
         (
+            f"nonlinear, 1 ms steps ({figures['nonlinear_steps_measured']:.0f} measured, "
+            "whole landing computed)",
+            "nonlinear_landing_s",
+        ),
+        ("  one step, stress of all elements included", "nonlinear_step_s"),
+        (
             f"full order, 1 ms steps ({figures['full_order_steps_measured']:.0f} measured, "
             "whole landing computed)",
             "full_order_landing_s",
@@ -235,7 +269,11 @@ def report(figures: dict[str, float], case: Case) -> None:
     for other in CASES[1:]:
         name = f"{other.name}_integration_and_peaks_s"
         print(f"  {'the same: ' + other.title:<66}{figures[name] * 1e3:12.1f} ms")
-    print(f"full order over reduced: {figures['full_order_over_reduced']:.0f} times")
+    print(
+        f"nonlinear : full order : reduced = {figures['nonlinear_over_reduced']:.0f} : "
+        f"{figures['full_order_over_reduced']:.0f} : 1, nonlinear over full order "
+        f"{figures['nonlinear_over_full_order']:.1f} times"
+    )
     print(
         f"limit: the products of the peak search are {figures['search_gflop']:.1f} Gflop, "
         f"{1e3 * figures['search_gflop'] / figures['product_gflop_s']:.0f} ms at this machine's "
