@@ -1,9 +1,10 @@
 """Linear buckling: how far the loads are from where thin parts give way.
 
 Stresses stiffen or soften a structure by its geometric stiffness K_G, the rate at which the tangent
-changes along the linear displacement.  At the factor f where ``(K + f K_G) x = 0`` a displacement x
-costs nothing.  A linear analysis is worth something as long as all factors lie well above one;
-where they do not, the nonlinear reference bends aside and the linear one does not notice.
+changes along the linear displacement, seen from axes that turn with each node.  At the factor f
+where ``(K + f K_G) x = 0`` a displacement x costs nothing.  A linear analysis is worth something as
+long as all factors lie well above one; where they do not, the nonlinear reference bends aside and
+the linear one does not notice.
 
 The loads keep their direction.  A free structure therefore also has factors at which it would
 rather stand otherwise under them, as a pendulum does; the shapes of these are nearly rigid.
@@ -53,7 +54,10 @@ def geometric_stiffness(structure: NonlinearStructure, displacement: Array) -> c
         pose = initial_pose(structure.model.coordinates).moved(
             moved[:, :3], exponential_quaternions(moved[:, 3:])
         )
-        sides.append(tangent_stiffness(structure.elements, structure.constraints.placed(pose)))
+        placed = structure.constraints.placed(pose)
+        # In axes that turn with the nodes: where the displacement turns a panel as a whole, its
+        # stiffness in fixed axes turns, too, and would pass for a change.
+        sides.append(tangent_stiffness(structure.elements, placed, own_axes=True))
     change = (sides[0] - sides[1]) / (2 * share)
     free = transformation.T @ change @ transformation
     return csc_array(0.5 * (free + free.T))

@@ -29,8 +29,11 @@ def column_factor(count: int) -> float:
     return _lowest_factor(model, fixed, loads)
 
 
-def plate_factor(count: int, triangular: bool = False) -> float:
-    """Critical load of a simply supported square plate relative to the closed form."""
+def plate_factor(count: int, triangular: bool = False, turn: Array | None = None) -> float:
+    """Critical load of a simply supported square plate relative to the closed form.
+
+    ``turn`` (3,) is a rotation of the whole plate that is added to the displacement [rad].
+    """
     thickness = 0.01
     model = meshes.plate(1.0, 1.0, count, count, triangular, thickness=thickness)
     nodes = meshes.grid_nodes(count, count)
@@ -44,14 +47,18 @@ def plate_factor(count: int, triangular: bool = False) -> float:
     loads = np.zeros((model.node_count, 6))
     loads[nodes[0], 1] = shares * 4 * np.pi**2 * rigidity
     loads[nodes[-1], 1] = -loads[nodes[0], 1]
-    return _lowest_factor(model, fixed, loads)
+    return _lowest_factor(model, fixed, loads, turn)
 
 
-def _lowest_factor(model: FiniteElementModel, fixed: BoolArray, loads: Array) -> float:
+def _lowest_factor(
+    model: FiniteElementModel, fixed: BoolArray, loads: Array, turn: Array | None = None
+) -> float:
     linear = build_structure(model)
     moving = np.flatnonzero(~fixed.ravel())
     displacement = np.zeros(fixed.size)
     stiffness = linear.stiffness[moving][:, moving].tocsc()
     displacement[moving] = splu(stiffness).solve(loads.ravel()[moving])
+    if turn is not None:
+        displacement += linear.rigid_modes(np.zeros(3))[:, 3:] @ turn
     geometric = geometric_stiffness(nonlinear_structure(model), displacement)
     return float(buckling_modes(linear.stiffness, geometric, moving, 2).factors[0])

@@ -25,6 +25,15 @@ def test_plate_converges_to_the_closed_form(triangular):
     assert errors[0] / errors[1] > 3.0
 
 
+def test_turning_the_plate_as_a_whole_changes_nothing():
+    """Turned by 0.02 about any axis, twice its thickness over its side, on top of the strain."""
+    still = plate_factor(4)
+    for axis in range(3):
+        turn = np.zeros(3)
+        turn[axis] = 0.02
+        assert plate_factor(4, turn=turn) == pytest.approx(still, rel=1e-6)
+
+
 def test_free_column_pushed_at_both_ends_buckles_at_eulers_load():
     # nothing holds it: the two forces balance, and any determinate support serves
     count, width, height, length = 16, 0.02, 0.01, 1.0
