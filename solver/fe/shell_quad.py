@@ -1,4 +1,4 @@
-"""Four-node shell: membrane with incompatible modes and drilling, MITC4 plate, warpage link.
+"""Four-node shell: membrane with incompatible modes and drilling, DKMQ plate, warpage link.
 
 Theory
 ------
@@ -26,9 +26,7 @@ neighbouring facets do not share a plane; a small gamma at all points frees the 
 lets the hook and the twisted beam go limp (2.7 and 75 times too soft at 1e-6 G), because twist
 must pass as in-plane rotation round a fold.  The mean alone carries the twist.
 
-*Plate.*  Mindlin plate with the transverse shear sampled at the middles of the sides (E. N.
-Dvorkin, K. J. Bathe, A continuum mechanics based four-node shell element for general non-linear
-analysis, Eng. Comp. 1, 1984, 77-88; here on the flat element), shear correction 5/6.
+*Plate.*  The discrete Kirchhoff-Mindlin quadrilateral of `plate_quad`, shear correction 5/6.
 
 Local axes: e3 normal to the diagonals, e1 along the bisector that runs from side 4-1 to side 2-3.
 """
@@ -37,23 +35,13 @@ import numpy as np
 
 from solver.arrays import Array, IntArray
 from solver.errors import ModelError
+from solver.fe.bilinear import GAUSS_POINTS, jacobian, quadratic, shape_functions
+from solver.fe.plate_quad import central_curvature, plate_stiffness
 from solver.fe.sections import ShellSections
 from solver.frames import skew
 
-#: Corners in the parent square.
-CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-GAUSS_POINTS = CORNERS / np.sqrt(3.0)
-SHEAR_CORRECTION = 5.0 / 6.0
 #: Stiffness of the drilling patterns with zero mean, as a share of the coupling of the mean.
 PATTERN_SHARE = 1e-3
-
-
-def shape_functions(xi: float, eta: float) -> tuple[Array, Array]:
-    """Bilinear shape functions (4,) and their parent derivatives (2, 4)."""
-    a, b = CORNERS[:, 0], CORNERS[:, 1]
-    values = 0.25 * (1.0 + a * xi) * (1.0 + b * eta)
-    derivatives = 0.25 * np.stack([a * (1.0 + b * eta), b * (1.0 + a * xi)])
-    return values, derivatives
 
 
 def quad_frames(coordinates: Array) -> Array:
@@ -114,39 +102,32 @@ def quad_stiffness(coordinates: Array, sections: ShellSections) -> Array:
     count = len(coordinates)
     elasticity = sections.plane_stress
     thickness = sections.thickness
-    bending = elasticity * (thickness**3 / 12.0)[:, None, None]
     membrane = elasticity * thickness[:, None, None]
     drilling = sections.shear_modulus * thickness
-    shear = SHEAR_CORRECTION * sections.shear_modulus * thickness
 
-    plate = np.zeros((count, 24, 24))
     # Membrane unknowns: 24 nodal freedoms, then the four incompatible amplitudes.
     sheet = np.zeros((count, 28, 28))
-    centre_inverse, centre_determinant = _jacobian(corners, 0.0, 0.0)
+    centre_inverse, centre_determinant = jacobian(corners, 0.0, 0.0)
     mean_spin = _mean_spin(centre_inverse)
-    sheet += _quadratic(mean_spin, (4.0 * drilling * centre_determinant)[:, None, None])
-    tying = _shear_samples(corners)
+    sheet += quadratic(mean_spin, (4.0 * drilling * centre_determinant)[:, None, None])
     for xi, eta in GAUSS_POINTS:
-        inverse, determinant = _jacobian(corners, xi, eta)
+        inverse, determinant = jacobian(corners, xi, eta)
         values, parent = shape_functions(xi, eta)
         gradients = inverse @ parent
         ratio = (centre_determinant / determinant)[:, None, None]
         modes = ratio * (centre_inverse @ np.array([[-2.0 * xi, 0.0], [0.0, -2.0 * eta]]))
         strain, spin = _membrane_operators(gradients, values, modes)
-        sheet += _quadratic(strain, membrane * determinant[:, None, None])
-        sheet += _quadratic(spin, (PATTERN_SHARE * drilling * determinant)[:, None, None])
-        plate += _quadratic(_curvature(gradients), bending * determinant[:, None, None])
-        shear_strain = inverse @ _interpolated_shear(tying, xi, eta)
-        plate += _quadratic(shear_strain, (shear * determinant)[:, None, None] * np.eye(2)[None])
+        sheet += quadratic(strain, membrane * determinant[:, None, None])
+        sheet += quadratic(spin, (PATTERN_SHARE * drilling * determinant)[:, None, None])
     coupling = np.linalg.solve(sheet[:, 24:, 24:], sheet[:, 24:, :24])
-    local = plate + sheet[:, :24, :24] - sheet[:, :24, 24:] @ coupling
+    local = plate_stiffness(corners, sections) + sheet[:, :24, :24] - sheet[:, :24, 24:] @ coupling
     link = _link(frames, warpage)
     stiffness = np.swapaxes(link, 1, 2) @ local @ link
     symmetric: Array = 0.5 * (stiffness + np.swapaxes(stiffness, 1, 2))
     return symmetric
 
 
-def quad_strains(coordinates: Array) -> Array:
+def quad_strains(coordinates: Array, sections: ShellSections) -> Array:
     """Operator (m, 6, 24) of membrane strains and curvatures at the centroid, local axes.
 
     Rows: strains x, y, engineering shear xy of the mid-surface [-], then the curvatures k such
@@ -155,10 +136,10 @@ def quad_strains(coordinates: Array) -> Array:
     """
     frames = quad_frames(coordinates)
     corners, warpage = _flat_corners(coordinates, frames)
-    inverse = _jacobian(corners, 0.0, 0.0)[0]
+    inverse = jacobian(corners, 0.0, 0.0)[0]
     gradients = inverse @ shape_functions(0.0, 0.0)[1]
     strain = _membrane_operators(gradients, np.zeros(4), np.zeros((len(corners), 2, 2)))[0]
-    local = np.concatenate([strain[:, :, :24], _curvature(gradients)], axis=1)
+    local = np.concatenate([strain[:, :, :24], central_curvature(corners, sections)], axis=1)
     operator: Array = local @ _link(frames, warpage)
     return operator
 
@@ -178,22 +159,6 @@ def _flat_corners(coordinates: Array, frames: Array) -> tuple[Array, Array]:
     """Corners in the mean plane (m, 4, 2) and height of the nodes above it (m, 4)."""
     local = (coordinates - coordinates.mean(axis=1, keepdims=True)) @ np.swapaxes(frames, 1, 2)
     return local[..., :2], local[..., 2]
-
-
-def _jacobian(corners: Array, xi: float, eta: float) -> tuple[Array, Array]:
-    """Inverse (m, 2, 2) and determinant (m,) of the Jacobian, rows d/dxi, d/deta of (x, y)."""
-    jacobian = shape_functions(xi, eta)[1] @ corners
-    adjugate = np.empty_like(jacobian)
-    adjugate[:, 0, 0], adjugate[:, 1, 1] = jacobian[:, 1, 1], jacobian[:, 0, 0]
-    adjugate[:, 0, 1], adjugate[:, 1, 0] = -jacobian[:, 0, 1], -jacobian[:, 1, 0]
-    determinant: Array = np.linalg.det(jacobian)
-    inverse: Array = adjugate / determinant[:, None, None]
-    return inverse, determinant
-
-
-def _quadratic(operator: Array, weight: Array) -> Array:
-    product: Array = np.swapaxes(operator, 1, 2) @ (weight @ operator)
-    return product
 
 
 def _membrane_operators(gradients: Array, values: Array, modes: Array) -> tuple[Array, Array]:
@@ -224,45 +189,6 @@ def _mean_spin(centre_inverse: Array) -> Array:
     values, parent = shape_functions(0.0, 0.0)
     flat = np.zeros((len(centre_inverse), 2, 2))
     return _membrane_operators(centre_inverse @ parent, values, flat)[1]
-
-
-def _curvature(gradients: Array) -> Array:
-    """Curvatures (m, 3, 24) of u = z ry, v = -z rx."""
-    curvature = np.zeros((len(gradients), 3, 24))
-    about_x, about_y = slice(3, 24, 6), slice(4, 24, 6)
-    curvature[:, 0, about_y] = gradients[:, 0]
-    curvature[:, 1, about_x] = -gradients[:, 1]
-    curvature[:, 2, about_y] = gradients[:, 1]
-    curvature[:, 2, about_x] = -gradients[:, 0]
-    return curvature
-
-
-def _shear_samples(corners: Array) -> tuple[Array, Array, Array, Array]:
-    """Covariant shear at the middles of the sides: xi at eta -1, +1, then eta at xi -1, +1."""
-
-    def sample(xi: float, eta: float, direction: int) -> Array:
-        values, parent = shape_functions(xi, eta)
-        tangent = parent[direction] @ corners
-        row = np.zeros((len(corners), 24))
-        row[:, 2::6] = parent[direction]
-        row[:, 4::6] = tangent[:, :1] * values
-        row[:, 3::6] = -tangent[:, 1:] * values
-        return row
-
-    return (
-        sample(0.0, -1.0, 0),
-        sample(0.0, 1.0, 0),
-        sample(-1.0, 0.0, 1),
-        sample(1.0, 0.0, 1),
-    )
-
-
-def _interpolated_shear(samples: tuple[Array, Array, Array, Array], xi: float, eta: float) -> Array:
-    """Assumed covariant shear (m, 2, 24) at a point, from the samples."""
-    below, above, left, right = samples
-    along_xi = 0.5 * ((1.0 - eta) * below + (1.0 + eta) * above)
-    along_eta = 0.5 * ((1.0 - xi) * left + (1.0 + xi) * right)
-    return np.stack([along_xi, along_eta], axis=1)
 
 
 def _link(frames: Array, warpage: Array) -> Array:

@@ -39,9 +39,10 @@ import numpy as np
 
 from solver.arrays import Array, IntArray
 from solver.errors import ModelError
+from solver.fe.bilinear import quadratic
+from solver.fe.plate_sides import SHEAR_CORRECTION, shear_ratios, side_excess, side_shear
 from solver.fe.sections import ShellSections
 
-SHEAR_CORRECTION = 5.0 / 6.0
 #: Midpoints of the sides in area coordinates; exact for the squares of linear fields.
 MIDPOINTS = np.array([[0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]])
 CENTROID = np.full(3, 1.0 / 3.0)
@@ -123,17 +124,17 @@ def triangle_stiffness(coordinates: Array, sections: ShellSections, lumping: Arr
     local = np.zeros((len(coordinates), 18, 18))
 
     basic = _mean_strain(corners, areas, lumping)
-    membrane = _quadratic(basic, elasticity * (thickness * areas)[:, None, None])
+    membrane = quadratic(basic, elasticity * (thickness * areas)[:, None, None])
     membrane += _higher_order(corners, areas, sections)
     local[:, MEMBRANE_FREEDOMS[:, None], MEMBRANE_FREEDOMS] = membrane
 
     bending = elasticity * (thickness**3 / 12.0 * areas / 3.0)[:, None, None]
     shear = (SHEAR_CORRECTION * sections.shear_modulus * thickness * areas / 3.0)[:, None, None]
-    ratios = _shear_ratios(corners, sections)
+    ratios = shear_ratios(corners, SIDES, sections)
     corner_shear = _corner_shear(corners, ratios)
     for point in MIDPOINTS:
-        local += _quadratic(_curvature(corners, areas, ratios, point), bending)
-        local += _quadratic(np.einsum("i,mifd->mfd", point, corner_shear), shear * np.eye(2))
+        local += quadratic(_curvature(corners, areas, ratios, point), bending)
+        local += quadratic(np.einsum("i,mifd->mfd", point, corner_shear), shear * np.eye(2))
     turn = _turn(frames)
     stiffness = np.swapaxes(turn, 1, 2) @ local @ turn
     symmetric: Array = 0.5 * (stiffness + np.swapaxes(stiffness, 1, 2))
@@ -151,7 +152,7 @@ def triangle_strains(coordinates: Array, sections: ShellSections, lumping: Array
     areas = triangle_areas(coordinates)
     local = np.zeros((len(coordinates), 6, 18))
     local[:, :3, MEMBRANE_FREEDOMS] = _mean_strain(corners, areas, lumping)
-    local[:, 3:] = _curvature(corners, areas, _shear_ratios(corners, sections), CENTROID)
+    local[:, 3:] = _curvature(corners, areas, shear_ratios(corners, SIDES, sections), CENTROID)
     operator: Array = local @ _turn(frames)
     return operator
 
@@ -165,11 +166,6 @@ def triangle_mass_shapes(coordinates: Array) -> Array:
 def _flat_corners(coordinates: Array, frames: Array) -> Array:
     local: Array = (coordinates - coordinates[:, :1]) @ np.swapaxes(frames, 1, 2)
     return local[..., :2]
-
-
-def _quadratic(operator: Array, weight: Array) -> Array:
-    product: Array = np.swapaxes(operator, 1, 2) @ (weight @ operator)
-    return product
 
 
 def _mean_strain(corners: Array, areas: Array, lumping: Array) -> Array:
@@ -218,38 +214,10 @@ def _higher_order(corners: Array, areas: Array, sections: ShellSections) -> Arra
     core = np.zeros((count, 3, 3))
     scale = (2.0 / 3.0 * areas[:, None] / squares)[:, :, None]
     for corner in ((q1 + q2) / 2.0, (q2 + q3) / 2.0, (q3 + q1) / 2.0):
-        core += _quadratic(scale * corner, elasticity)
+        core += quadratic(scale * corner, elasticity)
     beta_0 = np.maximum(0.5 * (1.0 - 4.0 * sections.poisson_ratio**2), BETA_FLOOR)
     factor = 0.75 * beta_0 * sections.thickness * areas
-    return _quadratic(hierarchical, factor[:, None, None] * core)
-
-
-def _shear_ratios(corners: Array, sections: ShellSections) -> Array:
-    """Ratio phi (m, 3) of bending to shear stiffness along the sides."""
-    plate = sections.young_modulus * sections.thickness**2 / (1.0 - sections.poisson_ratio**2)
-    squares = np.stack(
-        [np.sum((corners[:, j] - corners[:, i]) ** 2, axis=1) for i, j in SIDES], axis=1
-    )
-    ratios: Array = (plate / (SHEAR_CORRECTION * sections.shear_modulus))[:, None] / squares
-    return ratios
-
-
-def _side_excess(corners: Array, ratios: Array) -> tuple[Array, Array]:
-    """Excess rotation (m, 3, 18) at the middles of sides, and their directions (m, 3, 2).
-
-    -3 / (2 l (1 + phi)) (w_j - w_i + l (beta_s,i + beta_s,j) / 2) (Katili 1993).
-    """
-    sides = np.stack([corners[:, j] - corners[:, i] for i, j in SIDES], axis=1)
-    lengths = np.linalg.norm(sides, axis=2)
-    directions = sides / lengths[..., None]
-    excess = np.zeros((len(corners), 3, 18))
-    for side, (i, j) in enumerate(SIDES):
-        excess[:, side, 6 * i + 2] = 1.5 / lengths[:, side]
-        excess[:, side, 6 * j + 2] = -1.5 / lengths[:, side]
-        for corner in (i, j):
-            excess[:, side, 6 * corner + 4] = -0.75 * directions[:, side, 0]
-            excess[:, side, 6 * corner + 3] = 0.75 * directions[:, side, 1]
-    return excess / (1.0 + ratios)[..., None], directions
+    return quadratic(hierarchical, factor[:, None, None] * core)
 
 
 def _corner_shear(corners: Array, ratios: Array) -> Array:
@@ -257,8 +225,8 @@ def _corner_shear(corners: Array, ratios: Array) -> Array:
 
     Along a side the shear strain is -2/3 phi times the excess rotation (Katili 1993).
     """
-    excess, directions = _side_excess(corners, ratios)
-    along = -2.0 / 3.0 * ratios[..., None] * excess
+    excess, directions = side_excess(corners, SIDES, ratios)
+    along = side_shear(excess, ratios)
     shear = np.zeros((len(corners), 3, 2, 18))
     for corner, (one, other) in enumerate(((2, 0), (0, 1), (1, 2))):
         shear[:, corner] = np.linalg.solve(directions[:, [one, other]], along[:, [one, other]])
@@ -285,7 +253,7 @@ def _curvature(corners: Array, areas: Array, ratios: Array, point: Array) -> Arr
     for i in range(3):
         slope[:, :, 0, 6 * i + 4] += gradients[:, :, i]
         slope[:, :, 1, 6 * i + 3] -= gradients[:, :, i]
-    excesses, directions = _side_excess(corners, ratios)
+    excesses, directions = side_excess(corners, SIDES, ratios)
     for side, (i, j) in enumerate(SIDES):
         excess, c, s = excesses[:, side], directions[:, side, 0], directions[:, side, 1]
         bubble = 4.0 * (gradients[:, :, i] * point[j] + gradients[:, :, j] * point[i])

@@ -86,8 +86,9 @@ def build_stress_recovery(structure: Structure) -> StressRecovery:
     """Stress operators of all elements of a structure."""
     model = structure.model
     size = 6 * model.node_count
+    sections = shell_sections(model, model.quads)
     quads = shell_face_stresses(
-        quad_strains(model.coordinates[model.quads.nodes]), shell_sections(model, model.quads)
+        quad_strains(model.coordinates[model.quads.nodes], sections), sections
     )
     sections = shell_sections(model, model.triangles)
     lumping = side_lumping(model.triangles.nodes, model.quads.nodes, model.node_count)

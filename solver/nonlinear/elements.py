@@ -201,7 +201,7 @@ def corotational_elements(model: FiniteElementModel) -> CorotationalElements:
             quad_corners,
             quad_frames(quad_corners),
             quad_stiffness(quad_corners, quads),
-            quad_strains(quad_corners),
+            quad_strains(quad_corners, quads),
             quads,
         ),
         triangles=_shell_group(

@@ -81,6 +81,7 @@ class AppliedLoads:
     loading: str
     amplitudes: Array  #: (n_samples, 6 n_pins + 6) [N, N m]
     landing: LandingLoads | None = None
+    in_flight: bool = False
 
 
 def _landing(
@@ -261,7 +262,7 @@ def _manoeuvre(
         wrench = np.concatenate([weight, np.cross(gear.extended_axle - gear.pivot, weight)])
         pins.append(pin_load_matrix(gear.pins, gear.pivot) @ wrench)
     lift = _vertical_air_load(aircraft.total_mass * acceleration, aircraft.total_centre_of_gravity)
-    return AppliedLoads(name, loading, np.concatenate([*pins, lift])[None])
+    return AppliedLoads(name, loading, np.concatenate([*pins, lift])[None], in_flight=True)
 
 
 def _empennage(aircraft: LandingAircraft, loading: str) -> list[AppliedLoads]:
@@ -279,5 +280,5 @@ def _empennage(aircraft: LandingAircraft, loading: str) -> list[AppliedLoads]:
     ):
         amplitudes = steady.copy()
         amplitudes[-6:] += np.concatenate([force, np.cross(place, force)])
-        cases.append(AppliedLoads(name, loading, amplitudes[None]))
+        cases.append(AppliedLoads(name, loading, amplitudes[None], in_flight=True))
     return cases

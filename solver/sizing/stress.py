@@ -1,6 +1,7 @@
 """Utilisations of the airframe under its design cases, by inertia relief and dynamically."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,17 +17,28 @@ from solver.inertia_relief.response import landing_response
 from solver.inertia_relief.static import inertia_relief
 from solver.progress import Progress, silent
 from solver.sizing.cases import LOADINGS, AppliedLoads, fill_factors
+from solver.sizing.panels import panels
 
 #: Samples whose stress is evaluated together.
 BLOCK = 64
 
 
+@dataclass(frozen=True, slots=True)
+class StaticUtilisations:
+    """What the design cases ask of every element by inertia relief."""
+
+    stress: Array  #: (n_cases, ne) largest stress over the allowable
+    panels: Array  #: (n_cases, ne) one over the critical factor of shells; zero for beams
+
+
 def static_utilisations(
     airframe: Airframe, cases: Sequence[AppliedLoads], progress: Progress = silent
-) -> Array:
-    """Largest utilisation of every element in every case by inertia relief, (n_cases, ne)."""
+) -> StaticUtilisations:
+    """Largest utilisations of every element in every case by inertia relief."""
     shapes = applied_shapes(airframe)
     result = np.zeros((len(cases), len(airframe.allowables)))
+    buckled = np.zeros_like(result)
+    plates = panels(airframe.structure.model)
     for loading in LOADINGS:
         chosen = [k for k, case in enumerate(cases) if case.loading == loading.name]
         if not chosen:
@@ -41,9 +53,13 @@ def static_utilisations(
             amplitudes = cases[k].amplitudes
             for first in range(0, len(amplitudes), BLOCK):
                 block = amplitudes[first : first + BLOCK].T
-                stress = airframe.recovery.von_mises(shell @ block, beam @ block).max(axis=1)
+                rows = shell @ block
+                stress = airframe.recovery.von_mises(rows, beam @ block).max(axis=1)
                 result[k] = np.maximum(result[k], stress / airframe.allowables)
-    return result
+                faces = rows.reshape(-1, 2, 3, block.shape[1])
+                used = plates.utilisation(faces.mean(axis=1)).max(axis=1)
+                buckled[k, : len(used)] = np.maximum(buckled[k, : len(used)], used)
+    return StaticUtilisations(result, buckled)
 
 
 def dynamic_utilisations(

@@ -14,13 +14,14 @@ from verification.elements.supported import nothing_fixed, static
 
 
 def straight_cantilever(
-    shape: str = "regular", triangular: bool = False, refine: int = 1
+    shape: str = "regular", triangular: bool = False, refine: int = 1, slenderness: int = 5
 ) -> list[Figure]:
     """MacNeal-Harder slender beam: 6 x 1 elements; extension, in-plane, out-of-plane, twist.
 
     Refined parallelograms divide those of the published mesh; refined trapezoids keep their taper.
+    ``slenderness`` is the length of an element over its width, 5 on the published mesh.
     """
-    across, along = refine, 6 * refine
+    across, along = refine, 30 * refine // slenderness
     nodes = grid_nodes(along, across)
     base = np.linspace(0, 6, along + 1)
     x = np.stack([base] * (across + 1))

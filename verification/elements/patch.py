@@ -111,16 +111,28 @@ def invariants(stresses: Array) -> Array:
     return np.stack([x + y, np.hypot((x - y) / 2, xy)], axis=-1)
 
 
-def transverse_shear_energy() -> tuple[float, float]:
-    """Energy of the quads at w = x without rotations, and 5/6 G t / 2 times the area."""
-    plane = np.column_stack([POINTS, np.zeros(8)])
-    mesh = model(plane, quads=QUADS, thickness=THICKNESS, substance=material(1e6, 0.25))
-    stiffness = quad_stiffness(plane[QUADS], shell_sections(mesh, mesh.quads))
-    motion = np.zeros((8, 6))
-    motion[:, 2] = POINTS[:, 0]
-    element = motion[QUADS].reshape(5, 24)
-    energy = 0.5 * np.einsum("mi,mij,mj->", element, stiffness, element)
-    return float(energy), 0.5 * 5 / 6 * 4e5 * THICKNESS * 0.24 * 0.12
+def racked_rectangle(thickness: float) -> tuple[float, float]:
+    """Energy of a rectangle a x b racked, w = x without rotations, and that of a clamped strip.
+
+    A strip of plate whose ends move apart by w without turning holds 12 D b / (a^3 (1 + phi)) w,
+    phi = 12 D / (5/6 G t a^2) (Timoshenko's beam with the stiffness D of a plate, clamped at both
+    ends): bending when it is thin, shear when it is thick.
+    """
+    length, width, young, ratio = 0.24, 0.12, 1e6, 0.25
+    corners = np.array([[0.0, 0, 0], [length, 0, 0], [length, width, 0], [0, width, 0]])
+    mesh = model(
+        corners,
+        quads=np.array([[0, 1, 2, 3]]),
+        thickness=thickness,
+        substance=material(young, ratio),
+    )
+    stiffness = quad_stiffness(corners[None], shell_sections(mesh, mesh.quads))[0]
+    motion = np.zeros((4, 6))
+    motion[:, 2] = corners[:, 0]
+    energy = 0.5 * motion.ravel() @ stiffness @ motion.ravel()
+    bending = 12 * young * thickness**3 / (12 * (1 - ratio**2)) / length**2
+    shear = 5 / 6 * young / (2 * (1 + ratio)) * thickness
+    return float(energy), 0.5 * length * width * bending / (1 + bending / shear)
 
 
 def solved_chain(

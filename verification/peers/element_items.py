@@ -180,9 +180,7 @@ def torsion_items(run: Run) -> list[Item]:
     rows: list[Comparison] = []
     table = []
     target = bredt_stiffness()
-    # odd numbers lock and fail in the complete form, until the quadrilateral is cured
-    finenesses = (2,) if run.quick else (1, 2, 3)
-    cases = [(fineness, has_ribs) for has_ribs in (False, True) for fineness in finenesses]
+    cases = [(fineness, has_ribs) for has_ribs in (False, True) for fineness in (1, 2, 3)]
     for index, (fineness, has_ribs) in enumerate(cases):
         run.progress("boxes in torsion", index / len(cases))
         model = box(fineness, has_ribs)
@@ -221,10 +219,10 @@ def torsion_items(run: Run) -> list[Item]:
         Text(
             "Closed boxes in torsion are where the rotations of nodes at folds decide: walls in "
             "shear turn in their plane by half of what their neighbours' edges turn by. With one "
-            "quadrilateral to a wall (and less so with any odd number) rotation about the normal, "
-            "tied to the wall's spin, and bending rotation, tied to the neighbour's slope by "
-            "transverse shear, work against each other, and the box is too stiff: a fault of the "
-            "element, which the complete form shows as comparisons that miss."
+            "element to a wall, rotation about the normal, tied to the wall's spin, and bending "
+            "rotation, tied to the neighbour's slope, are the same freedom. A plate that ties the "
+            "slope by its shear stiffness (MITC4) locks there, 5 % too stiff, 10 % with ribs; "
+            "discrete Kirchhoff-Mindlin plates bend along their sides instead."
         ),
         Comparisons("Closed boxes in torsion", tuple(rows)),
         Table(

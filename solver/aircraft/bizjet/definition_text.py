@@ -19,7 +19,7 @@ Value = str | int | float | Sequence["Value"]
 
 #: Utilisations at which the verdict rises; from the sanity ladder in docs/example-aircraft.md.
 VERDICT: dict[str, str | float] = {
-    "firm_utilisation": 0.53,
+    "firm_utilisation": 0.48,
     "inspect_utilisation": 0.85,
     "overweight_factor": 0.95,
     "roll_limit_deg": 6.0,

@@ -6,7 +6,8 @@ Limit allowables are assumptions.  They start from values of the size that handb
 materials give for the alloys named (MMPDS, the lesser of yield and ultimate / 1.5) and are lowered
 for what the mesh does not show: thin panels that buckle (skins, webs), fastener rows and fatigue
 (lower wing skin, stringers, caps), a fitting factor of 1.15 (14 CFR 25.625) and the stress
-concentration of bores and lugs (fittings).  No buckling or fatigue analysis backs them.
+concentration of bores and lugs (fittings).  No fatigue analysis backs them; sizing keeps panels
+from buckling, see `solver.sizing.panels`.
 """
 
 from dataclasses import dataclass
