@@ -20,13 +20,15 @@ from verification.chapters import existing, in_starting_order
 from verification.circumstances import facts
 from verification.console import Display, closing_lines
 from verification.outcome import Outcome
-from verification.report import build_document, write_page, write_print
+from verification.report import build_document, write_page, write_pages, write_print
 from verification.run import ROOT, Run
 
 #: Where the chapters are.
 CHAPTERS = work.CHAPTERS
 
-FIGURES = ROOT / "docs" / "figures" / "verification"
+#: Where the docs are, and what of them is written here.
+DOCS = ROOT / "docs"
+PAGES, FIGURES = Path("verification"), Path("figures") / "verification"
 PAPER = b'<rect width="100%" height="100%" fill="#ffffff"/>'
 
 
@@ -39,7 +41,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--only", action="append", choices=available, metavar="CHAPTER",
         help=f"one chapter; may be repeated ({', '.join(available)})",
     )  # fmt: skip
-    parser.add_argument("--docs", action="store_true", help=f"also write the figures to {FIGURES}")
+    parser.add_argument(
+        "--docs", action="store_true", help="also write chapters and figures below docs"
+    )
     parser.add_argument("--processes", type=int, default=2, help="chapters at a time (2)")
     parser.add_argument(
         "--folder", type=Path, default=ROOT / "var" / "verify", help="of results and report"
@@ -61,7 +65,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     write_page(document, page)
     write_print(document, printed)
     if options.docs:
-        write_figures(outcomes, FIGURES)
+        write_figures(outcomes, DOCS / FIGURES)
+        write_pages(document, DOCS / PAGES, Path("..") / FIGURES)
     closing_lines(outcomes, console)
     console.print(document.headline, style="bold" if document.holds else "bold red")
     print(f"{page}\n{printed}")

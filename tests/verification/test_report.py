@@ -8,8 +8,8 @@ from tests.verification.sample_chapters import held, missed
 from verification.chapter import Chapter, Plot
 from verification.comparison import Comparison
 from verification.outcome import Outcome
-from verification.report import Document, build_document, write_page, write_print
-from verification.report.document import ComparisonBlock
+from verification.report import Document, build_document, write_page, write_pages, write_print
+from verification.report.document import ComparisonBlock, PlotBlock
 from verification.report.numerals import aligned, compared, power_of_ten, short, typeset
 from verification.run import Run, StoredResult
 
@@ -109,6 +109,24 @@ def test_print_is_one_pdf_of_its_pages(document: Document, tmp_path: Path) -> No
     assert data.startswith(b"%PDF-")
     # Summary with contents and all comparisons, then a page for each chapter.
     assert len(re.findall(rb"/Type\s*/Page\b", data)) == 4
+
+
+def test_pages_for_the_docs_show_every_comparison_and_mark_what_misses(
+    document: Document, tmp_path: Path
+) -> None:
+    write_pages(document, tmp_path / "pages", Path("../figures"))
+    for section in document.sections:
+        text = (tmp_path / "pages" / f"{section.name}.md").read_text()
+        rows = [line for line in text.splitlines() if line.startswith("|")]
+        for block in section.blocks:
+            for row in block.rows if isinstance(block, ComparisonBlock) else ():
+                (line,) = [line for line in rows if row.name in line]
+                assert row.used in line
+                assert ("(missed)" in line) != row.holds
+            if isinstance(block, PlotBlock):
+                assert f"](../figures/{block.file})" in text
+        widths = {line.count("|") - line.count("\\|") for line in rows}
+        assert len(widths) <= len(section.blocks)
 
 
 def test_figures_of_one_name_are_refused() -> None:

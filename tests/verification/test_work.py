@@ -99,12 +99,13 @@ def test_one_chapter_alone_is_reported_apart(
     assert not (tmp_path / "report.html").exists()
 
 
-def test_figures_for_the_docs_are_those_of_the_report(
+def test_docs_get_the_figures_and_the_chapters_of_the_report(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(command, "FIGURES", tmp_path / "figures")
+    monkeypatch.setattr(command, "DOCS", tmp_path / "docs")
     run_command(tmp_path, monkeypatch, ("held",), "--docs")
-    (drawing,) = (tmp_path / "figures").iterdir()
+    (drawing,) = (tmp_path / "docs" / "figures" / "verification").iterdir()
+    assert drawing.name in (tmp_path / "docs" / "verification" / "held.md").read_text()
     assert drawing.name == "held-square.svg"
     assert b"<svg" in drawing.read_bytes()
     with pytest.raises(SystemExit):
