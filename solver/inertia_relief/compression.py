@@ -11,19 +11,26 @@ Source: Eckart and Young, "The approximation of one matrix by another of lower r
 """
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from solver.arrays import Array, Single
-from solver.inertia_relief.reduced_stress import BLOCK, COORDINATE_GROUP, PATTERN_GROUP, ReducedStress, group_edges
+from solver.inertia_relief.reduced_stress import (
+    BLOCK,
+    COORDINATE_GROUP,
+    PATTERN_GROUP,
+    ReducedStress,
+    group_edges,
+)
 from solver.inertia_relief.stress_rows import StressRows, measure_squares
 
 #: Root mean square of what is dropped over a block's elements, relative to each one's own rows.
-DROPPED = 6e-3
+DROPPED = 4e-3
 #: The same beyond the leading patterns.
-BEYOND_LEADING = 3e-2
+BEYOND_LEADING = 1.5e-2
 #: Share of the motion in landings that the directions left out may carry.
 UNMOVED = 2e-5
 #: Power of the spread by which coordinates are divided; 0 keeps them, 1 makes them alike.
@@ -104,7 +111,9 @@ def compressed(rows: StressRows, spread: Array) -> ReducedStress:
         pattern_shapes=np.array(shapes, dtype=np.int64).reshape(-1, 3),
         patterns=_joined(patterns, (0,)),
         shares=_joined(shares, (0,)),
-        pattern_norms=_joined([_padded(group_norms(*part, PATTERN_GROUP), widest) for part in parts], (0, widest)),
+        pattern_norms=_joined(
+            [_padded(group_norms(*part, PATTERN_GROUP), widest) for part in parts], (0, widest)
+        ),
         rest_norms=_joined(rests, (0, 2 * (len(group_edges(len(spread))) - 1))),
     )
 
@@ -115,7 +124,7 @@ def group_norms(rows: NDArray[Any], points: Single, group: int) -> Array:
     norms: Array = np.stack(
         [
             np.sqrt(measure_squares(rows[:, :, first:last], points).max(axis=1))
-            for first, last in zip(edges[:-1], edges[1:], strict=True)
+            for first, last in pairwise(edges)
         ],
         axis=1,
     )
@@ -125,8 +134,9 @@ def group_norms(rows: NDArray[Any], points: Single, group: int) -> Array:
 def _leading(weighed: Array, points: Single) -> tuple[Array, int]:
     """Orthonormal directions (h, r) that carry a block's rows (n, 6, m), every element alike.
 
-    They are combinations of the last h coordinates, leading ones first, and so many lead.  What the other
-    coordinates carry and what is not along the directions are together `DROPPED`.
+    They are combinations of the last h coordinates, leading ones first; the number is of those
+    that suffice for an estimate.  What the other coordinates carry and what is not along the
+    directions are together `DROPPED`.
     """
     norms = np.sqrt(measure_squares(weighed, points).max(axis=1))
     alike = (weighed / np.where(norms > 0.0, norms, 1.0)[:, None, None]).reshape(

@@ -12,6 +12,10 @@ from solver.arrays import Array, IntArray, Single
 _MARGIN = np.float32(1.0001)
 _ZERO = np.float32(0.0)
 _FAST = {"contract", "reassoc", "nsz"}
+# These neither make arrays nor keep them; to count references at every call would cost as much as
+# what they evaluate.
+_STRICT: dict[str, Any] = {"cache": True, "_nrt": False}
+_LEAN: dict[str, Any] = {**_STRICT, "fastmath": _FAST}
 
 
 @numba.njit(cache=True, fastmath=_FAST)
@@ -93,7 +97,7 @@ def fill_patterns(
             rise[i, g] = math.sqrt(total)
 
 
-@numba.njit(cache=True, fastmath=_FAST, _nrt=False)
+@numba.njit(**_LEAN)
 def _values(rows: Single, e: int, points: Single, out: Single) -> None:  # pragma: no cover
     """Von Mises stress (k,) from the rows (n, 6, k) of element ``e``, larger face or point."""
     count = len(out)
@@ -121,7 +125,7 @@ def _values(rows: Single, e: int, points: Single, out: Single) -> None:  # pragm
         out[k] = math.sqrt(out[k])
 
 
-@numba.njit(cache=True, fastmath=_FAST, _nrt=False)
+@numba.njit(**_LEAN)
 def _bounds(
     values: Single, e: int, others: Single, rise: Single, beside: Single, out: Single
 ) -> None:  # pragma: no cover - compiled
@@ -131,7 +135,7 @@ def _bounds(
         out[i] = ((left if left > right else right) + rise[e, i] + beside[e, i]) * _MARGIN
 
 
-@numba.njit(cache=True, fastmath=_FAST, _nrt=False)
+@numba.njit(**_LEAN)
 def _highest(values: Single) -> int:  # pragma: no cover - compiled
     """Index of the largest value."""
     largest: Any = values[0]
@@ -143,7 +147,7 @@ def _highest(values: Single) -> int:  # pragma: no cover - compiled
     return 0
 
 
-@numba.njit(cache=True, fastmath=_FAST, _nrt=False)
+@numba.njit(**_LEAN)
 def _rest(norms: Single, e: int, amplitudes: Single, t: int) -> float:  # pragma: no cover
     """How far the exact stress of element ``e`` may be from the compressed one at a sample."""
     total: Any = _ZERO
@@ -153,7 +157,7 @@ def _rest(norms: Single, e: int, amplitudes: Single, t: int) -> float:  # pragma
     return result
 
 
-@numba.njit(cache=True, fastmath=_FAST, _nrt=False)
+@numba.njit(**_LEAN)
 def _measure(
     s0: float, s1: float, s2: float, s3: float, s4: float, s5: float, points: Single, e: int
 ) -> float:  # pragma: no cover - compiled
@@ -171,7 +175,7 @@ def _measure(
     return math.sqrt(best + s5 * s5)
 
 
-@numba.njit(cache=True, fastmath=_FAST, _nrt=False)
+@numba.njit(**_LEAN)
 def _stress(
     rows: Single, e: int, history: Single, one: int, two: int, points: Single
 ) -> tuple[float, float]:  # pragma: no cover - compiled
@@ -201,7 +205,7 @@ def _stress(
     )
 
 
-@numba.njit(cache=True, _nrt=False)
+@numba.njit(**_STRICT)
 def _gather(
     e: int,
     begin: int,
@@ -218,6 +222,9 @@ def _gather(
     norms: Single,
     certain: float,
     likeliest: int,
+    samples: IntArray,
+    estimates: Single,
+    slack: Single,
     candidates: IntArray,
     reach: Single,
     found: int,
@@ -230,34 +237,39 @@ def _gather(
         Number of candidates, what is certain now, the candidate it comes from, and the number of
         estimates.
     """
-    estimated, done = 0, -1
+    # first all samples, then all estimates: loops without surprises keep the processor busy
+    count, done = 0, -1
     for i in range(begin, end):
         if bounds[i] <= certain:
             continue
-        around = beside[e, i]
-        t, stop = knots[i], knots[i + 1]
+        start, stop = knots[i], knots[i + 1]
         # the ends are known by the leading patterns, and may have been looked at from before
-        if t == done or (at_knots[i] + others[e, i] + around) * _MARGIN <= certain:
-            t += 1
-        if (at_knots[i + 1] + others[e, i + 1] + around) * _MARGIN <= certain:
+        if start == done or (at_knots[i] + others[e, i] + beside[e, i]) * _MARGIN <= certain:
+            start += 1
+        done = stop
+        if (at_knots[i + 1] + others[e, i + 1] + beside[e, i]) * _MARGIN <= certain:
             stop -= 1
-        else:
-            done = stop
-        while t <= stop:
-            two = min(t + 1, stop)
-            pair = _stress(shares, e, patterns, t, two, points)
-            estimated += 1 + two - t
-            for side in range(1 + two - t):
-                value: Any = pair[side]
-                if (value + around) * _MARGIN > certain:
-                    rest: Any = _rest(rest_norms, e, norms, t + side)
-                    if (value + rest) * _MARGIN > certain:
-                        candidates[found], reach[found] = t + side, (value + rest) * _MARGIN
-                        if value - rest > certain:
-                            certain, likeliest = value - rest, found
-                        found += 1
-            t = two + 1
-    return found, certain, likeliest, estimated
+            done = -1
+        for t in range(start, stop + 1):
+            samples[count + t - start] = t
+            slack[count + t - start] = beside[e, i]
+        count += max(0, stop + 1 - start)
+    samples[count] = samples[max(0, count - 1)]
+    for c in range(0, count, 2):
+        pair = _stress(shares, e, patterns, samples[c], samples[c + 1], points)
+        estimates[c], estimates[c + 1] = pair[0], pair[1]
+    for c in range(count):
+        certain = max(certain, estimates[c] - slack[c])
+    for c in range(count):
+        if (estimates[c] + slack[c]) * _MARGIN >= certain:
+            t = samples[c]
+            rest: Any = _rest(rest_norms, e, norms, t)
+            if (estimates[c] + rest) * _MARGIN >= certain:
+                candidates[found], reach[found] = t, (estimates[c] + rest) * _MARGIN
+                if estimates[c] - rest >= certain:
+                    certain, likeliest = estimates[c] - rest, found
+                found += 1
+    return found, certain, likeliest, count
 
 
 @numba.njit(cache=True)
@@ -305,6 +317,9 @@ def gather_candidates(
     intervals = len(knots) - 1
     bounds = np.empty(intervals, dtype=np.float32)
     values = np.empty(intervals + 1, dtype=np.float32)
+    samples = np.empty(len(patterns) + len(knots) + 1, dtype=np.int64)
+    estimates = np.empty(len(samples), dtype=np.float32)
+    slack = np.empty(len(samples), dtype=np.float32)
     found = estimated = 0
     for e in range(len(shares)):
         _values(at_knots, e, points, values)
@@ -334,6 +349,9 @@ def gather_candidates(
                 norms,
                 certain,
                 likeliest,
+                samples,
+                estimates,
+                slack,
                 candidates,
                 reach,
                 found,
@@ -345,7 +363,7 @@ def gather_candidates(
     return estimated
 
 
-@numba.njit(cache=True, _nrt=False)
+@numba.njit(**_STRICT)
 def evaluate_candidates(
     operator: Single,
     points: Single,

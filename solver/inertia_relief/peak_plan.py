@@ -88,7 +88,7 @@ def _line_distances(coordinates: Single, out: Single) -> None:  # pragma: no cov
 
 @numba.njit(cache=True)
 def _cut(squares: Single, limit: float, shortest: int) -> IntArray:  # pragma: no cover - compiled
-    """Ends of the longest aligned intervals whose squared distances stay below ``limit``."""
+    """Find the longest aligned intervals whose squared distances stay below ``limit``."""
     count = squares.shape[1]
     ends = np.empty(count // shortest + 1, dtype=np.int64)
     found, start = 0, 0
@@ -108,7 +108,7 @@ def _cut(squares: Single, limit: float, shortest: int) -> IntArray:  # pragma: n
 def _interpolation(
     grid: IntArray, points: int
 ) -> tuple[IntArray, Single]:  # pragma: no cover - compiled
-    """Lagrange's polynomials through the nearest ``points`` samples of the grid, see `SearchPlan`."""
+    """Lagrange's polynomials through the nearest ``points`` samples, see `SearchPlan`."""
     count = grid[-1] + 1
     support = np.empty(count, dtype=np.int64)
     weights = np.empty((count, points), dtype=np.float32)

@@ -1,12 +1,16 @@
 """Every element's largest von Mises stress over a whole landing, and when.
 
-Every element is looked at in knots, with stress rows compressed by blocks of elements.  Between
-two knots the coordinates are a straight line plus a deviation d(t); von Mises stress is a norm of
-linear rows A, so it cannot exceed the larger end value plus ``sum_k |A_k| max |d_k(t)|``, where k
-counts the principal directions of the deviation and, last, all that they leave out.  Intervals
-whose bound reaches the element's best value so far are halved.  What the compression leaves out
-widens every bound, and whatever can still be the peak is evaluated with the exact rows.  The
-result is that of evaluating every sample, to the rounding of single precision.
+Von Mises stress is a norm of linear rows A of the coordinates z.  Blocks of elements share a few
+patterns p, so that A z = S p + (what the patterns leave out, bounded by groups of coordinates).
+
+1. At knots in time every element's stress is estimated with the leading patterns; other patterns
+   can add their norm.  Between two knots the patterns are a straight line plus a deviation, so the
+   stress is at most the larger end value plus what the deviation can cause, group by group.
+2. In intervals whose bound reaches what is certain already, all patterns estimate every sample.
+3. Samples whose estimate, plus what the patterns leave out, can still be the peak are evaluated
+   with the exact rows.
+
+The result is that of evaluating every sample, to the rounding of single precision.
 """
 
 from dataclasses import dataclass

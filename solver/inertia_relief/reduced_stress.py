@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.arrays import Array, IntArray, Single
+from solver.arrays import IntArray, Single
 
 #: Elements of a block.
 BLOCK = 128
@@ -62,25 +62,29 @@ class ReducedStress:
 
     def blocks(self) -> Iterator[StressBlock]:
         """Yield blocks in the order of the elements."""
+        # plain views once: slices of mapped files cost more than what is done with small ones
+        every_share, every_pattern = np.asarray(self.shares), np.asarray(self.patterns)
+        pattern_norms, rest_norms = np.asarray(self.pattern_norms), np.asarray(self.rest_norms)
         no_points = np.zeros((len(self.shell_rows), 0, 5), dtype=np.float32)
         shapes = iter(self.pattern_shapes.tolist())
         element = pattern = share = 0
-        for rows, points in ((self.shell_rows, no_points), (self.beam_rows, self.beam_points)):
+        for rows, points in (
+            (np.asarray(self.shell_rows), no_points),
+            (np.asarray(self.beam_rows), np.asarray(self.beam_points)),
+        ):
             for start in range(0, len(rows), BLOCK):
                 part = slice(start, start + BLOCK)
-                exact = np.asarray(rows[part])
+                exact = rows[part]
                 height, (count, known, leading) = 6 * len(exact), next(shapes)
-                patterns = self.patterns[pattern : pattern + count * known]
-                shares = self.shares[share : share + height * count]
                 elements = slice(element, element + len(exact))
                 yield StressBlock(
                     rows=exact,
-                    points=np.asarray(points[part]),
-                    patterns=np.asarray(patterns).reshape(count, known),
+                    points=points[part],
+                    patterns=every_pattern[pattern : pattern + count * known].reshape(count, known),
                     leading=leading,
-                    shares=np.asarray(shares).reshape(height, count),
-                    pattern_norms=np.asarray(self.pattern_norms[elements]),
-                    rest_norms=np.asarray(self.rest_norms[elements]),
+                    shares=every_share[share : share + height * count].reshape(height, count),
+                    pattern_norms=pattern_norms[elements],
+                    rest_norms=rest_norms[elements],
                 )
                 element, pattern = element + len(exact), pattern + count * known
                 share += height * count
