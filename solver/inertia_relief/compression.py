@@ -28,9 +28,9 @@ from solver.inertia_relief.reduced_stress import (
 from solver.inertia_relief.stress_rows import StressRows, measure_squares
 
 #: Root mean square of what is dropped over a block's elements, relative to each one's own rows.
-DROPPED = 4e-3
+DROPPED = 3e-3
 #: The same beyond the leading patterns.
-BEYOND_LEADING = 1.5e-2
+BEYOND_LEADING = 1.2e-2
 #: Share of the motion in landings that the directions left out may carry.
 UNMOVED = 2e-5
 #: Power of the spread by which coordinates are divided; 0 keeps them, 1 makes them alike.

@@ -15,7 +15,7 @@ import numpy as np
 from solver.arrays import IntArray, Single
 
 #: Elements of a block.
-BLOCK = 128
+BLOCK = 256
 #: Members of a group of coordinates and of a group of patterns at most.
 COORDINATE_GROUP, PATTERN_GROUP = 32, 16
 
