@@ -18,7 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.arrays import Array, IntArray, Single
-from solver.inertia_relief.peak_kernels import evaluate_candidates, fill_patterns, gather_candidates
+from solver.inertia_relief.peak_kernels import evaluate_candidates, gather_candidates
+from solver.inertia_relief.peak_patterns import fill_patterns
 from solver.inertia_relief.peak_plan import plan_search
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.reduced_stress import BLOCK, PATTERN_GROUP, group_edges
