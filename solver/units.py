@@ -54,7 +54,11 @@ _FACTORS: dict[Dimension, dict[str, float]] = {
     Dimension.ANGLE: {"deg": math.pi / 180.0, "rad": 1.0},
     Dimension.ANGULAR_RATE: {"deg/s": math.pi / 180.0, "rad/s": 1.0},
     Dimension.MASS: {"kg": 1.0, "lb": POUND, "t": 1000.0},
-    Dimension.LOAD_FACTOR: {"g": 1.0, "m/s2": 1.0 / STANDARD_GRAVITY},
+    Dimension.LOAD_FACTOR: {
+        "g": 1.0,
+        "m/s2": 1.0 / STANDARD_GRAVITY,
+        "mg": 1e-3,
+    },
     Dimension.STATION: {"m": 1.0, "ft": FOOT, "in": INCH},
     Dimension.TIME: {"s": 1.0, "ms": 1e-3},
     Dimension.LENGTH: {"m": 1.0, "ft": FOOT},

@@ -70,7 +70,7 @@ class RecorderFrame:
         """Entry for a parameter, of that source if there is one, else of any source."""
         entries = [entry for entry in self.parameters if entry.parameter is parameter]
         named = [entry for entry in entries if entry.source == source]
-        return (named or entries or [None])[0]
+        return next(iter(named or entries), None)
 
     def require(self, parameter: Parameter, source: str = "") -> RecordedParameter:
         """As `find`; raises `ModelError` where the frame does not hold the parameter."""

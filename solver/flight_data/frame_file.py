@@ -1,7 +1,8 @@
 """Recorder frames as data: TOML files of this package, or one of the user's own.
 
 A figure is ``{ value = 8, unit = "Hz", from = "document" }``; ``[sources]`` says what stands behind
-each of the words in ``from``.  ``[defaults.<parameter>]`` holds what several sources share.
+each of the words in ``from``.  ``[defaults.<parameter>]`` holds what several sources share; what a
+frame leaves open there is taken from ``usual_errors.toml``.
 """
 
 import tomllib
@@ -16,7 +17,8 @@ from solver.flight_data.frame import Certainty, Figure, RecordedParameter, Recor
 from solver.flight_data.parameter import KINDS, Parameter
 from solver.units import Dimension, to_si
 
-_FOLDER = resources.files("solver.flight_data") / "frames"
+_PACKAGE = resources.files("solver.flight_data")
+_FOLDER = _PACKAGE / "frames"
 
 _FIGURES = (
     "rate",
@@ -72,7 +74,8 @@ def parse_frame(text: str, name: str) -> RecorderFrame:
         document = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise ModelError(f"frame {name}: {error}") from error
-    sources = document.get("sources", {})
+    usual = _usual_errors()
+    sources = {**usual["sources"], **document.get("sources", {})}
     for word in sources:
         if word not in list(Certainty):
             raise ModelError(f"frame {name}: [sources] knows {', '.join(Certainty)}, not {word}")
@@ -80,11 +83,19 @@ def parse_frame(text: str, name: str) -> RecorderFrame:
     entries = []
     for index, entry in enumerate(document.get("parameter", [])):
         where = f"frame {name}, parameter {index + 1}"
-        merged = {**defaults.get("every", {}), **defaults.get(entry.get("name", ""), {}), **entry}
+        merged: dict[str, Any] = {}
+        for part in ("every", str(entry.get("name", ""))):
+            merged |= {**usual["defaults"].get(part, {}), **defaults.get(part, {})}
+        merged |= entry
         entries.append(_parameter(merged, where, sources))
     if not entries:
         raise ModelError(f"frame {name} holds no [[parameter]]")
     return RecorderFrame(name, str(document.get("title", name)), dict(sources), tuple(entries))
+
+
+@cache
+def _usual_errors() -> dict[str, Any]:
+    return tomllib.loads((_PACKAGE / "usual_errors.toml").read_text(encoding="utf-8"))
 
 
 def _parameter(

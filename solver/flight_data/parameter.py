@@ -15,6 +15,7 @@ class Parameter(StrEnum):
     LONGITUDINAL_ACCELERATION = "longitudinal_acceleration"  #: specific force forward [g]
     RADIO_ALTITUDE = "radio_altitude"  #: [m]
     VERTICAL_SPEED = "vertical_speed"  #: inertial, upward positive [m/s]
+    BAROMETRIC_SPEED = "barometric_speed"  #: vertical, upward positive; too slow to judge by [m/s]
     PITCH = "pitch"  #: nose up [rad]
     ROLL = "roll"  #: starboard wing down [rad]
     HEADING = "heading"  #: [rad]
@@ -69,6 +70,7 @@ KINDS: dict[Parameter, Kind] = {
     Parameter.LONGITUDINAL_ACCELERATION: Kind(Dimension.LOAD_FACTOR, -5.0, 5.0),
     Parameter.RADIO_ALTITUDE: Kind(Dimension.LENGTH, -1300.0, 2500.0),
     Parameter.VERTICAL_SPEED: Kind(Dimension.SPEED, -60.0, 60.0),
+    Parameter.BAROMETRIC_SPEED: Kind(Dimension.SPEED, -60.0, 60.0),
     Parameter.PITCH: Kind(Dimension.ANGLE, -_TURN / 8, _TURN / 8),
     Parameter.ROLL: Kind(Dimension.ANGLE, -_TURN / 4, _TURN / 4),
     Parameter.HEADING: Kind(Dimension.ANGLE, -_TURN, _TURN),
