@@ -38,7 +38,7 @@ class SyntheticLanding:
         return float(velocity_at(self.motion, point)[first, 2])
 
     def main_contacts(self, geometry: Geometry) -> tuple[float, ...]:
-        """Times at which the main wheels come down after all of them were off the ground [s]."""
+        """List when the main wheels come down after all of them were off the ground [s]."""
         noses = {wheel.gear for wheel in geometry.of(Place.NOSE)}
         times: list[float] = []
         until = -np.inf

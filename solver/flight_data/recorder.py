@@ -179,4 +179,5 @@ class _Shown:
         ]
         if not strokes:
             return None
-        return (np.max(strokes, axis=0) > SWITCH_STROKE).astype(np.float64)
+        closed = np.max(strokes, axis=0) > SWITCH_STROKE
+        return np.asarray(closed, dtype=np.float64)
