@@ -24,8 +24,8 @@ LONGEST = 8.0
 _LEAST_CLOSURE = 0.06
 
 #: What the end of a hop leaves open: one wheel may come down well before the oleos show it.  The
-#: scatter that is left over the synthetic fleet of `verification.flight_data` [s].
-_HOP_SD = 0.07
+#: scatter that is left over the synthetic fleet of `benchmarks.flight_data` [s].
+_HOP_SD = 0.05
 
 #: How far a strut may be from its full extension in a short hop [m].
 _EXTENSION_SD = 0.06

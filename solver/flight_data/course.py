@@ -41,9 +41,8 @@ class Course:
 
 
 #: Spectral densities tried for the second derivative of the quantity [unit^2/s^3].
-ANGLE_ACTIVITY = 10.0 ** np.arange(-5.0, -1.0, 0.5)
 #: A pilot is busiest in the last seconds; quiet ones before must not let the rates look certain.
-PITCH_ACTIVITY = 10.0 ** np.arange(-2.75, -1.0, 0.5)
+ATTITUDE_ACTIVITY = 10.0 ** np.arange(-2.75, -1.0, 0.5)
 #: The nose is turned into the track in the last seconds, which the seconds before do not show.
 YAW_ACTIVITY = 10.0 ** np.arange(-3.5, -1.0, 0.5)
 SPEED_ACTIVITY = 10.0 ** np.arange(-4.0, 0.6, 0.5)
@@ -53,7 +52,7 @@ def smooth_course(
     series: tuple[Series, ...],
     nodes: Array,
     opened: tuple[tuple[float, float, float], ...] = (),
-    activity: Array = ANGLE_ACTIVITY,
+    activity: Array = ATTITUDE_ACTIVITY,
 ) -> Course:
     """Smooth the samples of one quantity, whose second derivative is white noise.
 

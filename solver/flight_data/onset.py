@@ -19,13 +19,16 @@ class Indicator:
 
 
 #: Time over which the load of a gear comes up: tyre first, then the preload of the strut [s].
-_RISES = (0.01, 0.03, 0.06, 0.10, 0.16)
+_RISES = (0.01, 0.02, 0.04, 0.07, 0.12)
 
 #: How far the true course of a shock leaves the template, per unit of its height.
 _MISFIT = 0.1
 
 #: Height of the shock over the highest sample around its rise.
 _HEIGHTS = (0.7, 0.85, 1.0, 1.2, 1.5, 2.0, 3.0)
+
+#: Scatter of its logarithm: some shocks still grow after their first samples.
+_HEIGHT_SPREAD = 0.35
 
 
 def ramp_response(time: Array, rise: Array | float, corner: float) -> Array:
@@ -114,7 +117,8 @@ def _posterior(
     for factor in _HEIGHTS:
         expected = factor * height * response
         sd = np.hypot(scatter, _MISFIT * factor * height * np.minimum(3 * response, 1.0))
-        likelihoods.append((-0.5 * ((shown - expected) / sd) ** 2 - np.log(sd)).sum(axis=2))
+        fit = (-0.5 * ((shown - expected) / sd) ** 2 - np.log(sd)).sum(axis=2)
+        likelihoods.append(fit - 0.5 * (np.log(factor) / _HEIGHT_SPREAD) ** 2)
     total = np.array(likelihoods)
     log = np.logaddexp.reduce(np.logaddexp.reduce(total, axis=0), axis=1)
     spread = series.entry.delay_scatter.value

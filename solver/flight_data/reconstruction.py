@@ -16,8 +16,7 @@ from solver.flight_data.contacts import (
     timed,
 )
 from solver.flight_data.course import (
-    ANGLE_ACTIVITY,
-    PITCH_ACTIVITY,
+    ATTITUDE_ACTIVITY,
     SPEED_ACTIVITY,
     YAW_ACTIVITY,
     Course,
@@ -194,8 +193,8 @@ def _courses(
     nodes = np.unique(np.concatenate([[span[0], span[1]], [c.time for c in contacts]]))
     shocks = [(c.time, c.time + 1.5, SHOCK) for c in contacts]
     yaw_shocks = [(start, end, YAW_SHOCK) for start, end, _ in shocks]
-    pitch = _course(window, Parameter.PITCH, nodes, shocks, PITCH_ACTIVITY)
-    roll = _course(window, Parameter.ROLL, nodes, shocks, ANGLE_ACTIVITY)
+    pitch = _course(window, Parameter.PITCH, nodes, shocks, ATTITUDE_ACTIVITY)
+    roll = _course(window, Parameter.ROLL, nodes, shocks, ATTITUDE_ACTIVITY)
     assert pitch is not None  # noqa: S101 - `shortcomings` has looked
     assert roll is not None  # noqa: S101
     heading = _course(window, Parameter.HEADING, nodes, yaw_shocks, YAW_ACTIVITY)

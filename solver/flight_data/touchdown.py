@@ -76,7 +76,7 @@ _SLOPE_SD = 0.004
 _LIFT_SPAN = 0.6
 
 #: How far that average is carried on to the contact [s].
-_CARRIED = 0.2
+_CARRIED = 0.17
 
 
 def touchdown_state(
