@@ -152,11 +152,13 @@ def likely_contact(window: Window) -> float | None:
     """Rough time of a first contact that no shock shows: radio altitude, or the switches [s]."""
     if (switch := first_closed(window)) is not None:
         return switch - 0.3
-    times = [
-        float(radio.time[np.flatnonzero(radio.value < 1.0)[0]])
-        for radio in aligned(window, Parameter.RADIO_ALTITUDE)
-        if np.any(radio.value < 1.0) and np.any(radio.value > 6.0)
-    ]
+    times = []
+    for radio in aligned(window, Parameter.RADIO_ALTITUDE):
+        high = np.flatnonzero(radio.value > 6.0)
+        # Out of the flight: it must have been higher before, which a take-off was not.
+        low = np.flatnonzero(radio.value < 1.0)
+        low = low[low > high[0]] if len(high) else low[:0]
+        times += [float(radio.time[low[0]])] if len(low) else []
     return float(np.mean(times)) if times else None
 
 

@@ -131,7 +131,7 @@ def _first_contact(
                 contact = timed(window, normal, around, ContactKind.FIRST, height, other)
                 return contact, datum
     guess = strong[0].time if strong else likely_contact(window)
-    if guess is None:
+    if guess is None or not normal.time[0] + 2.0 < guess < normal.time[-1] - 1.0:
         return None, None
     datum, height = _untied_height(window, normal, geometry, guess)
     down = np.flatnonzero(height[1] < 0)
