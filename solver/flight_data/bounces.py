@@ -7,8 +7,8 @@ from scipy.special import ndtr
 
 from solver.arrays import Array
 from solver.flight_data.alignment import Series, aligned, best
-from solver.flight_data.contacts import ONSET, ContactKind, ContactTime, Rise, rises, timed
-from solver.flight_data.geometry import Geometry
+from solver.flight_data.contacts import ONSET, ContactKind, ContactTime, Rise, rises, speaks, timed
+from solver.flight_data.geometry import Geometry, Place, Wheel
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.touchdown import Courses
 from solver.flight_data.wheels import lowest_course
@@ -55,9 +55,15 @@ def later_contacts(
     """
     end = min(first.time + LONGEST, float(courses.vertical.time[-1]) - 0.5)
     found = _bounces(window, normal, courses, geometry, first, end)
-    nose = _nose(window, normal, courses, geometry, first, end)
-    if nose is not None:
-        found.append(nose)
+    if first.kind is ContactKind.NOSE_FIRST:
+        wheels, kind = geometry.mains, ContactKind.MAINS
+    else:
+        wheels, kind = geometry.of(Place.NOSE), ContactKind.DEROTATION
+    other = _coming_down(window, normal, courses, geometry, first, end, wheels, kind)
+    if other is not None:
+        if kind is ContactKind.MAINS:  # their first contact is no bounce
+            found = [contact for contact in found if contact.time > other.time + SHORTEST]
+        found.append(other)
     return sorted(found, key=lambda contact: contact.time)
 
 
@@ -82,7 +88,7 @@ def _bounces(
         around = (max(rise.time - normal.interval - 0.35, last + 0.3), rise.time + 0.05)
         wide = np.hypot(sd, _EXTENSION_SD)
         contact = timed(window, normal, around, ContactKind.BOUNCE, (grid, height, wide), rise)
-        if contact is not None and any(b.name == ONSET for b in contact.vote.ballots):
+        if contact is not None and speaks(contact, ONSET):
             contacts.append(replace(contact, sd=float(np.hypot(contact.sd, _HOP_SD))))
             last = contact.time
     return contacts
@@ -119,23 +125,24 @@ def _switch_odds(window: Window, last: float, time: float) -> float:
     return 2.0 if opened else 0.5
 
 
-def _nose(
+def _coming_down(
     window: Window,
     normal: Series,
     courses: Courses,
     geometry: Geometry,
     first: ContactTime,
     end: float,
+    wheels: tuple[Wheel, ...],
+    kind: ContactKind,
 ) -> ContactTime | None:
-    """First time at which the nose wheel comes down to the ground."""
-    noses = tuple(wheel for wheel in geometry.wheels if wheel not in geometry.mains)
-    if not noses or first.kind is ContactKind.NOSE_FIRST:
+    """First time at which the wheels that did not touch first come down to the ground."""
+    if not wheels:
         return None
     grid = np.arange(first.time + 0.02, end, 0.01)
-    height, sd = lowest_course(courses, geometry, noses, grid)
+    height, sd = lowest_course(courses, geometry, wheels, grid)
     down = np.flatnonzero(height < 0)
     if len(down) == 0:
         return None
     crossing = float(grid[down[0]])
     around = (max(crossing - 0.5, first.time + 0.02), crossing + 0.5)
-    return timed(window, normal, around, ContactKind.DEROTATION, (grid, height, sd), None)
+    return timed(window, normal, around, kind, (grid, height, sd), None)

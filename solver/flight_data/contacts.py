@@ -20,6 +20,7 @@ class ContactKind(StrEnum):
     FIRST = "first"  #: out of the flight
     BOUNCE = "bounce"  #: main wheels again, after they had left the ground
     NOSE_FIRST = "nose_first"  #: the nose wheel before the mains
+    MAINS = "mains"  #: the main wheels, after the nose wheel
     DEROTATION = "derotation"  #: the nose wheel, with the mains on the ground or just off it
 
 
@@ -144,7 +145,7 @@ def first_rises(window: Window, normal: Series) -> list[Rise]:
         rise
         for rise in rises(normal, drag, *low, sudden=WEAK)
         if (switch is None or rise.time < switch + 2 * normal.interval)
-        and rough_height(window, rise.time) < (NEAR if rise.suddenness < 2 * SUDDEN else 2 * NEAR)
+        and rough_height(window, rise.time) < (NEAR if not is_plain(rise) else 2 * NEAR)
     ]
 
 
@@ -169,6 +170,16 @@ def rough_height(window: Window, time: float) -> float:
         for radio in aligned(window, Parameter.RADIO_ALTITUDE)
     ]
     return float(np.mean(heights)) if heights else 0.0
+
+
+def is_plain(rise: Rise) -> bool:
+    """Whether a rise is too sudden for anything but a shock."""
+    return rise.suddenness > 2 * SUDDEN
+
+
+def speaks(contact: ContactTime, name: str) -> bool:
+    """Whether an indicator took part in the vote on a contact."""
+    return any(ballot.name == name for ballot in contact.vote.ballots)
 
 
 def timed(

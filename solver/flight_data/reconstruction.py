@@ -8,11 +8,15 @@ from solver.arrays import Array
 from solver.flight_data.alignment import Series, aligned, best
 from solver.flight_data.bounces import later_contacts
 from solver.flight_data.contacts import (
+    ONSET,
     SUDDEN,
     ContactKind,
     ContactTime,
+    Rise,
     first_rises,
+    is_plain,
     likely_contact,
+    speaks,
     timed,
 )
 from solver.flight_data.course import (
@@ -23,7 +27,7 @@ from solver.flight_data.course import (
     smooth_course,
 )
 from solver.flight_data.datum import Datum, normal_datum
-from solver.flight_data.geometry import Geometry
+from solver.flight_data.geometry import Geometry, Place, Wheel
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.sufficiency import Shortcoming, shortcomings
 from solver.flight_data.touchdown import Courses, TouchdownState, touchdown_state
@@ -67,6 +71,10 @@ SETTLING = 3.0
 #: How well a smoothed height is trusted besides its own standard deviation [m].
 _HEIGHT_SD = 0.1
 
+#: What the rise of the normal acceleration is late by when the nose wheel touches first: its
+#: load is a fraction of the mains' and mostly turns the aircraft [s].
+_NOSE_LEAD = 0.06
+
 #: Spectral density of the angular acceleration while the ground acts: half a rad/s2 over a third of
 #: a second [rad2/s3].
 SHOCK = 0.1
@@ -101,6 +109,9 @@ def reconstruct(window: Window, geometry: Geometry) -> Reconstruction:
     # The later contacts are timed by a height that is tied to the first one only: tied to
     # themselves they would bear themselves out.
     courses = _courses(window, normal, geometry, [first], datum)
+    if _is_nose_first(courses, geometry, first.time):
+        first = _earlier(first)
+        courses = _courses(window, normal, geometry, [first], datum)
     contacts = [first, *later_contacts(window, normal, courses, geometry, first)]
     if len(contacts) > 1:
         courses = _courses(window, normal, geometry, contacts, datum)
@@ -126,9 +137,11 @@ def _first_contact(
         datum, height = _untied_height(window, normal, geometry, rise.time)
         for other in candidates:
             at, doubt = (float(np.interp(other.time, height[0], each)) for each in height[1:])
-            if other.time <= rise.time and at < 2.0 * doubt:
-                around = (other.time - normal.interval - 0.2, other.time + 0.05)
-                contact = timed(window, normal, around, ContactKind.FIRST, height, other)
+            if other.time > rise.time or at > doubt * _trust(other):
+                continue
+            around = (other.time - normal.interval - 0.2, other.time + 0.05)
+            contact = timed(window, normal, around, ContactKind.FIRST, height, other)
+            if contact is not None and (is_plain(other) or speaks(contact, ONSET)):
                 return contact, datum
     guess = strong[0].time if strong else likely_contact(window)
     if guess is None or not normal.time[0] + 2.0 < guess < normal.time[-1] - 1.0:
@@ -140,6 +153,32 @@ def _first_contact(
     crossing = float(height[0][down[0]])
     around = (crossing - 1.0, crossing + 0.6)
     return timed(window, normal, around, ContactKind.FIRST, height, None), datum
+
+
+def _is_nose_first(courses: Courses, geometry: Geometry, time: float) -> bool:
+    """Whether the nose wheel was lower than the main wheels at the first contact."""
+    noses = geometry.of(Place.NOSE)
+    if not noses:
+        return False
+    at = np.array([time])
+    nose, _ = lowest_course(courses, geometry, noses, at)
+    main, _ = lowest_course(courses, geometry, geometry.mains, at)
+    return bool(nose[0] < main[0])
+
+
+def _earlier(first: ContactTime) -> ContactTime:
+    """First contact by the nose wheel, whose own shock hardly shows at the accelerometer."""
+    return replace(
+        first,
+        kind=ContactKind.NOSE_FIRST,
+        time=first.time - _NOSE_LEAD,
+        sd=float(np.hypot(first.sd, _NOSE_LEAD)),
+    )
+
+
+def _trust(rise: Rise) -> float:
+    """How many standard deviations the wheels may be off the ground; a gust is a weak rise."""
+    return float(np.clip((rise.suddenness - 3.0) / 4.0, 0.4, 2.0))
 
 
 def _untied_height(
@@ -209,12 +248,11 @@ def _courses(
         inertial=aligned(window, Parameter.VERTICAL_SPEED),
         datum=datum,
     )
-    mains = tuple(wheel.gear for wheel in geometry.mains)
-    nose = tuple(wheel.gear for wheel in geometry.wheels if wheel not in geometry.mains)
     touches = tuple(
-        Touch(c.time, c.sd, nose if c.kind is ContactKind.NOSE_FIRST else mains)
+        Touch(c.time, c.sd, tuple(wheel.gear for wheel in _touching(c.kind, geometry)))
         for c in contacts
-        if is_tied and c.kind is not ContactKind.DEROTATION
+        # The wheels that come down second are timed by the height: it must not be tied to them.
+        if is_tied and c.kind not in (ContactKind.DEROTATION, ContactKind.MAINS)
     )
     rolling = last + SETTLING
     vertical = smooth_vertical(
@@ -245,13 +283,17 @@ def _course(
     return smooth_course(usable, nodes, tuple(opened), activity)
 
 
+def _touching(kind: ContactKind, geometry: Geometry) -> tuple[Wheel, ...]:
+    """Wheels of which the lowest touches in a contact."""
+    is_nose = kind in (ContactKind.DEROTATION, ContactKind.NOSE_FIRST)
+    return geometry.of(Place.NOSE) if is_nose else geometry.mains
+
+
 def _found(contact: ContactTime, courses: Courses, geometry: Geometry) -> FoundContact:
+    at = np.array([contact.time])
+    lowest = min(
+        _touching(contact.kind, geometry),
+        key=lambda wheel: float(wheel_course(courses, geometry, wheel, at)[0][0]),
+    )
     state = touchdown_state(courses, geometry, contact.time, contact.sd)
-    heights = {
-        wheel.gear: float(wheel_course(courses, geometry, wheel, np.array([contact.time]))[0][0])
-        for wheel in geometry.wheels
-        if (contact.kind is ContactKind.DEROTATION) == (wheel not in geometry.mains)
-        or contact.kind is ContactKind.NOSE_FIRST
-    }
-    lowest = min(heights or {"": 0.0}, key=lambda name: (heights or {"": 0.0})[name])
-    return FoundContact(contact.kind, contact.time, contact.sd, lowest, contact, replace(state))
+    return FoundContact(contact.kind, contact.time, contact.sd, lowest.gear, contact, state)

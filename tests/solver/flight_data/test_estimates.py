@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from solver.flight_data.approach import Approach, fly_in
 from solver.flight_data.contacts import ContactKind
 from solver.flight_data.fleet import SyntheticLanding
 from solver.flight_data.frame_file import packaged_frame
@@ -19,6 +20,9 @@ from solver.flight_data.reconstruction import Reconstruction, reconstruct
 from solver.flight_data.recorder import Surroundings, record
 from solver.flight_data.touchdown import COMPONENTS
 from solver.flight_data.window import Channel, Window
+from solver.landing.aircraft import LandingAircraft
+from solver.landing.contact import Contact
+from solver.landing.simulate import SimulationOptions, simulate_landing
 
 Fleet = list[tuple[str, SyntheticLanding]]
 
@@ -291,3 +295,26 @@ def test_without_a_named_frame_the_errors_are_wider_and_still_right(
         error = unknown.state.sink_rate.value - landing.contact.sink_rate
         squared.append((error / unknown.state.sink_rate.sd) ** 2)
     assert np.mean(squared) < 2.0
+
+
+@pytest.mark.parametrize("frame", ["business-jet-8", "737-7"])
+@pytest.mark.parametrize("pitch", [-2.0, 4.0])
+def test_nose_first_is_told_from_mains_first(
+    pitch: float, frame: str, aircraft: LandingAircraft, geometry: Geometry
+) -> None:
+    contact = Contact(1.5, 65.0, pitch=float(np.deg2rad(pitch)))
+    options = SimulationOptions(time_limit=6.0, stop_when_settled=False, output_interval=2e-3)
+    history = simulate_landing(aircraft, contact, options)
+    motion = fly_in(history, Approach(), np.random.default_rng(2))
+    window = record(motion, packaged_frame(frame), geometry, Surroundings(), 5)
+    answer = reconstruct(window, geometry)
+    first = answer.contacts[0]
+    assert abs(first.time) < 0.1, first.timing
+    if pitch > 0:
+        assert first.kind is ContactKind.FIRST
+        return
+    assert first.kind is ContactKind.NOSE_FIRST
+    assert first.gear == "nose"
+    mains = next(c for c in answer.contacts if c.kind is ContactKind.MAINS)
+    true = min(c.start for c in history.contacts if c.gear != "nose")
+    assert abs(mains.time - true) < max(0.15, 3 * mains.time_sd)
