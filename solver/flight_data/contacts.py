@@ -37,6 +37,9 @@ class ContactTime:
 #: Name of the chief indicator.
 ONSET = "normal acceleration"
 
+#: Wheels that are brought to speed pull the aircraft back.
+SPIN_UP = "spin-up drag"
+
 #: Step of the grids on which indicators are compared [s].
 STEP = 0.005
 
@@ -48,6 +51,9 @@ CLOSE = 0.3
 
 #: Its first step over the usual one from sample to sample.
 SUDDEN = 6.0
+
+#: Above this it is no gust.
+PLAIN = 9.0
 
 #: What is still looked at, if the wheels are at the ground by the smoothed height.
 WEAK = 4.0
@@ -174,7 +180,7 @@ def rough_height(window: Window, time: float) -> float:
 
 def is_plain(rise: Rise) -> bool:
     """Whether a rise is too sudden for anything but a shock."""
-    return rise.suddenness > 2 * SUDDEN
+    return rise.suddenness > PLAIN
 
 
 def speaks(contact: ContactTime, name: str) -> bool:
@@ -215,7 +221,7 @@ def timed(
         )
         drag = best(window, Parameter.LONGITUDINAL_ACCELERATION)
         if drag is not None and drag.channel.rate >= 4 and kind is ContactKind.FIRST:
-            indicators.append(rise_onset("spin-up drag", drag, grid, -1.0, GUST, until))
+            indicators.append(rise_onset(SPIN_UP, drag, grid, -1.0, GUST, until))
     switches = [
         series
         for parameter in (*(_SWITCH_OF[place] for place in places), Parameter.GEAR_ANY)

@@ -6,6 +6,7 @@ from enum import StrEnum
 import numpy as np
 
 from solver.arrays import Array
+from solver.gear.parameters import Gear
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.records import GRAVITY
 
@@ -61,18 +62,17 @@ class Geometry:
         return tuple(wheel for wheel in self.wheels if wheel.place is not Place.NOSE)
 
 
-def usual_installation(aircraft: LandingAircraft) -> Installation:
+def usual_installation(centre_of_gravity: Array, gears: tuple[Gear, ...]) -> Installation:
     """Sensors where they are put unless somebody says otherwise.
 
     The accelerometer is near the centre of gravity, as 14 CFR 25.1459(a)(2) asks for (within its
     limits of the mean aerodynamic chord); the antenna is under the fuselage, forward of the main
     gear.  The distances are assumptions.
     """
-    centre = aircraft.total_centre_of_gravity
-    lowest = min(float(gear.pivot[2]) for gear in aircraft.gears)
+    lowest = min(float(gear.pivot[2]) for gear in gears)
     return Installation(
-        accelerometer=np.array([centre[0] - 0.4, 0.0, centre[2]]),
-        antenna=np.array([centre[0] - 1.5, 0.0, lowest]),
+        accelerometer=np.array([centre_of_gravity[0] - 0.4, 0.0, centre_of_gravity[2]]),
+        antenna=np.array([centre_of_gravity[0] - 1.5, 0.0, lowest]),
     )
 
 
@@ -80,38 +80,52 @@ def aircraft_geometry(
     aircraft: LandingAircraft, installation: Installation | None = None
 ) -> Geometry:
     """Geometry of an aircraft of the landing simulation."""
-    foremost = min(float(gear.pivot[0]) for gear in aircraft.gears)
+    return geometry_on_gears(
+        aircraft.gears, aircraft.total_centre_of_gravity, aircraft.total_mass, installation
+    )
+
+
+def geometry_on_gears(
+    gears: tuple[Gear, ...],
+    centre_of_gravity: Array,
+    mass: float,
+    installation: Installation | None = None,
+    centre_of_gravity_sd: float = 0.05,
+) -> Geometry:
+    """Geometry from gears, centre of gravity (3,) structural axes [m] and mass [kg]."""
+    foremost = min(float(gear.pivot[0]) for gear in gears)
     wheels = []
-    for gear in aircraft.gears:
+    for gear in gears:
         place = Place.LEFT if gear.pivot[1] < 0 else Place.RIGHT
         if abs(gear.pivot[1]) < 0.2 and gear.pivot[0] == foremost:
             place = Place.NOSE
         bottom = gear.extended_axle - np.array([0.0, 0.0, gear.tyre.free_radius])
         wheels.append(Wheel(gear.name, place, bottom))
     return Geometry(
-        centre_of_gravity=aircraft.total_centre_of_gravity,
+        centre_of_gravity=centre_of_gravity,
         wheels=tuple(wheels),
-        installation=installation or usual_installation(aircraft),
-        static_closure=_static_closure(aircraft, wheels),
+        installation=installation or usual_installation(centre_of_gravity, gears),
+        centre_of_gravity_sd=centre_of_gravity_sd,
+        static_closure=_static_closure(gears, wheels, centre_of_gravity, mass),
     )
 
 
-def _static_closure(aircraft: LandingAircraft, wheels: list[Wheel]) -> float:
+def _static_closure(
+    gears: tuple[Gear, ...], wheels: list[Wheel], centre_of_gravity: Array, mass: float
+) -> float:
     """Closure of strut and tyre of a main gear that carries its share of the weight [m].
 
     Oleo as a gas spring at rest (NACA Report 1154), tyre by its own static law.
     """
     mains = [
-        gear
-        for gear, wheel in zip(aircraft.gears, wheels, strict=True)
-        if wheel.place is not Place.NOSE
+        gear for gear, wheel in zip(gears, wheels, strict=True) if wheel.place is not Place.NOSE
     ]
     others = [w.position[0] for w in wheels if w.place is Place.NOSE]
     share = 1.0
     if others:
         base = mains[0].pivot[0] - others[0]
-        share = float((aircraft.total_centre_of_gravity[0] - others[0]) / base)
-    load = share * aircraft.total_mass * GRAVITY / len(mains)
+        share = float((centre_of_gravity[0] - others[0]) / base)
+    load = share * mass * GRAVITY / len(mains)
     strut, tyre = mains[0].strut, mains[0].tyre
     volume, area = strut.initial_gas_volume, strut.pneumatic_area
     preload = strut.initial_gas_pressure * area

@@ -24,6 +24,10 @@ _RISES = (0.01, 0.02, 0.04, 0.07, 0.12)
 #: How far the true course of a shock leaves the template, per unit of its height.
 _MISFIT = 0.1
 
+#: Scatter of an onset in sampling intervals that the template does not account for: the step of a
+#: brake or a gust in between, a shock of several pulses.
+_SPREAD = 0.2
+
 #: Height of the shock over the highest sample around its rise.
 _HEIGHTS = (0.7, 0.85, 1.0, 1.2, 1.5, 2.0, 3.0)
 
@@ -94,7 +98,7 @@ def rise_onset(
     # A trend goes on for a moment: half of it is taken.
     shown = sign * series.value[during] - base - slope / 2 * (time[during] - grid[0])
     height = float(shown.max())
-    if height < 3.0 * scatter:
+    if height < 2.0 * scatter:
         return None
     return _posterior(name, series, grid, time[during], shown, scatter, height, slow)
 
@@ -121,7 +125,8 @@ def _posterior(
         likelihoods.append(fit - 0.5 * (np.log(factor) / _HEIGHT_SPREAD) ** 2)
     total = np.array(likelihoods)
     log = np.logaddexp.reduce(np.logaddexp.reduce(total, axis=0), axis=1)
-    spread = series.entry.delay_scatter.value
+    # The rest of what the template leaves open grows with the time between samples.
+    spread = float(np.hypot(series.entry.delay_scatter.value, _SPREAD * series.interval))
     log = blurred(log, grid, spread)
     # The mean time by which the soft touch comes first; longer with fewer samples to show it.
     return indicator(
