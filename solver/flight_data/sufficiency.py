@@ -2,7 +2,10 @@
 
 from dataclasses import dataclass
 
-from solver.flight_data.parameter import SWITCHES, Parameter
+import numpy as np
+
+from solver.errors import SolverError
+from solver.flight_data.parameter import Parameter
 from solver.flight_data.window import Channel, Window
 
 #: Rates below which a landing cannot be told [Hz].  A shock of a quarter of a second falls between
@@ -27,6 +30,14 @@ class Shortcoming:
     code: str
     reason: str
     settled_by: str  #: which data would settle it
+
+
+class UndeterminedError(SolverError):
+    """A window turns out not to tell; carries why and what would settle it."""
+
+    def __init__(self, shortcoming: Shortcoming) -> None:
+        super().__init__(f"{shortcoming.reason}; settled by {shortcoming.settled_by}")
+        self.shortcoming = shortcoming
 
 
 def shortcomings(window: Window) -> tuple[Shortcoming, ...]:
@@ -86,6 +97,24 @@ def _is_broadcast(channel: Channel) -> bool:
     return len(channel.value) > 4 and bool((abs(turns - turns.round()) < 1e-3).all())
 
 
-def has_switches(window: Window) -> bool:
-    """Whether any ground switch is recorded."""
-    return any(window.of(parameter) for parameter in SWITCHES)
+def check_gaps(window: Window, contact: float) -> None:
+    """Raise `UndeterminedError` if a needed channel has a gap around a contact [s]."""
+    for parameter, reach in (
+        (Parameter.NORMAL_ACCELERATION, 1.0),
+        (Parameter.PITCH, 1.5),
+        (Parameter.ROLL, 1.5),
+    ):
+        channel = window.first(parameter)
+        if channel is None:
+            continue
+        first, last = contact - 2 * reach, contact + reach
+        near = channel.time[(channel.time > first) & (channel.time < last)]
+        if np.diff([first, *near, last]).max() > 3.5 / channel.rate:
+            name = parameter.replace("_", " ")
+            raise UndeterminedError(
+                Shortcoming(
+                    f"gap_{parameter}",
+                    f"{name} has a gap at the contact",
+                    f"{name} without a gap from 3 s before to 2 s after the contact",
+                )
+            )

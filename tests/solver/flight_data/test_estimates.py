@@ -318,3 +318,38 @@ def test_nose_first_is_told_from_mains_first(
     mains = next(c for c in answer.contacts if c.kind is ContactKind.MAINS)
     true = min(c.start for c in history.contacts if c.gear != "nose")
     assert abs(mains.time - true) < max(0.15, 3 * mains.time_sd)
+
+
+def test_no_damage_to_a_window_raises(window: Window, geometry: Geometry) -> None:
+    rng = np.random.default_rng(3)
+
+    def damaged(channel: Channel) -> Channel | None:
+        time, value, kind = channel.time, channel.value, rng.integers(12)
+        if kind == 0:
+            return None
+        if kind == 1:
+            time, value = time[::5], value[::5]
+        elif kind == 2:
+            kept = rng.random(len(time)) < rng.random()
+            time, value = time[kept], value[kept]
+        elif kind == 3:
+            value = np.zeros_like(value)
+        elif kind == 4:
+            value = rng.permutation(value)
+        elif kind == 5:
+            value = -value
+        elif kind == 6:
+            kept = time > rng.uniform(-5.0, 5.0)
+            time, value = time[kept], value[kept]
+        return replace(channel, time=time, value=value) if len(time) else None
+
+    told = 0
+    for _ in range(25):
+        channels = [d for c in window.channels if (d := damaged(c)) is not None]
+        answer = reconstruct(replace(window, channels=tuple(channels)), geometry)
+        assert bool(answer.contacts) != bool(answer.cannot_tell)
+        for contact in answer.contacts:
+            told += 1
+            assert contact.time_sd > 0
+            assert contact.state.sink_rate.sd > 0
+    assert told > 0
