@@ -41,6 +41,10 @@ class Settings(BaseSettings):
     hard_time_limit: Annotated[float, Field(gt=0)] = 30.0
     #: A worker keeps claiming for this long on one nudge, then passes the nudge on.
     drain_budget: Annotated[float, Field(ge=0)] = 1.0
+    #: Where many wait, a worker claims as many at once as it can solve in this time, and puts back
+    #: what it could not.  Whoever comes with priority waits this long, and for one landing more.
+    batch_seconds: Annotated[float, Field(ge=0)] = 0.25
+    batch_limit: Annotated[int, Field(ge=1)] = 32  #: most landings in one claim
     max_attempts: Annotated[int, Field(ge=1)] = 5
     sweep_interval: Annotated[float, Field(gt=0)] = 1.5
     nudge_window: Annotated[int, Field(ge=1)] = 4  #: most nudges that one sweep sends

@@ -4,18 +4,26 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from functools import lru_cache
+from time import monotonic
 from typing import Any
 
-from sqlalchemy import DateTime, Engine, MetaData, create_engine, event
+import psycopg
+from sqlalchemy import DateTime, Engine, MetaData, String, create_engine, event
 from sqlalchemy.engine import Dialect
+from sqlalchemy.exc import InvalidatePoolError
 from sqlalchemy.ext.compiler import compiles
 from sqlalchemy.orm import DeclarativeBase, Session
+from sqlalchemy.pool import ConnectionPoolEntry
 from sqlalchemy.sql.compiler import SQLCompiler
 from sqlalchemy.sql.elements import ColumnElement
+from sqlalchemy.sql.visitors import InternalTraversal
 from sqlalchemy.types import TypeDecorator
 from uuid_utils import uuid7
 
 from app.config import get_settings
+
+#: A connection that was used this recently is taken to be alive.
+TRUSTED_IDLE = 1.0  #: [s]
 
 #: Batch migrations on SQLite rebuild tables and must be able to name every constraint.
 NAMING = {
@@ -56,7 +64,9 @@ class DatabaseTime(ColumnElement[datetime]):
     """The database's own clock, shifted: workers on other hosts may have other clocks."""
 
     type = UtcDateTime()
-    inherit_cache = False
+    # Statements with the same shift are compiled once.
+    _traverse_internals: Any = [("seconds", InternalTraversal.dp_plain_obj)]  # noqa: RUF012
+    inherit_cache = True
 
     def __init__(self, seconds: float = 0.0) -> None:
         self.seconds = float(seconds)
@@ -75,6 +85,24 @@ def _postgres_time(element: DatabaseTime, compiler: SQLCompiler, **_: Any) -> st
     return f"(clock_timestamp() + {element.seconds:.3f} * interval '1 second')"
 
 
+class NewToken(ColumnElement[str]):
+    """A fresh random text, made by the database for each row that a statement touches."""
+
+    type = String()
+    _traverse_internals: Any = []  # noqa: RUF012
+    inherit_cache = True
+
+
+@compiles(NewToken, "sqlite")
+def _sqlite_token(_element: NewToken, _compiler: SQLCompiler, **_: Any) -> str:
+    return "lower(hex(randomblob(16)))"
+
+
+@compiles(NewToken, "postgresql")
+def _postgres_token(_element: NewToken, _compiler: SQLCompiler, **_: Any) -> str:
+    return "CAST(gen_random_uuid() AS text)"
+
+
 def new_id() -> str:
     """A time-ordered identifier, so that indices grow at their end."""
     return str(uuid7())
@@ -83,17 +111,36 @@ def new_id() -> str:
 def make_engine(url: str) -> Engine:
     """Engine with the durability this service promises, on either database."""
     if not url.startswith("sqlite"):
-        return create_engine(
-            url,
-            pool_pre_ping=True,
-            pool_size=10,
-            max_overflow=30,
-            connect_args={"connect_timeout": 5},
+        engine = create_engine(
+            url, pool_size=10, max_overflow=30, connect_args={"connect_timeout": 5}
         )
+        event.listen(engine, "checkin", _note_idle)
+        event.listen(engine, "checkout", _test_after_a_pause)
+        return engine
     engine = create_engine(url, pool_size=40, connect_args={"timeout": 15.0})
     event.listen(engine, "connect", _configure_sqlite)
     event.listen(engine, "begin", _begin_sqlite)
     return engine
+
+
+def _note_idle(_connection: Any, record: ConnectionPoolEntry) -> None:
+    record.info["idle_since"] = monotonic()
+
+
+def _test_after_a_pause(connection: Any, record: ConnectionPoolEntry, _proxy: Any) -> None:
+    """Replace connections that a restarted server has forgotten.
+
+    Only what has lain idle is asked: a busy connection would pay a round trip for each transaction
+    and may be cut in the middle of it all the same.
+    """
+    idle_since = record.info.pop("idle_since", None)
+    if idle_since is None or monotonic() - idle_since < TRUSTED_IDLE:
+        return
+    try:
+        connection.execute("SELECT 1")
+        connection.rollback()
+    except psycopg.Error as error:
+        raise InvalidatePoolError from error
 
 
 def _configure_sqlite(connection: Any, _record: Any) -> None:
@@ -136,7 +183,31 @@ def writing(engine: Engine) -> Iterator[Session]:
 
 
 @contextmanager
-def reading(engine: Engine) -> Iterator[Session]:
-    """One consistent view of the database."""
-    with Session(engine, expire_on_commit=False) as session:
+def writing_once(engine: Engine) -> Iterator[Session]:
+    """A single statement that writes; on Postgres it is its own transaction, in one round trip."""
+    if engine.dialect.name == "sqlite":
+        with writing(engine) as session:
+            yield session
+        return
+    with _without_transaction(engine) as session:
         yield session
+
+
+@contextmanager
+def reading(engine: Engine) -> Iterator[Session]:
+    """Statements that only read; on SQLite all of them see one and the same state.
+
+    On Postgres each statement has its own view in any case (READ COMMITTED), so none of them needs
+    a transaction around it, which would cost two round trips more.
+    """
+    if engine.dialect.name == "sqlite":
+        with Session(engine, expire_on_commit=False) as session:
+            yield session
+        return
+    with _without_transaction(engine) as session:
+        yield session
+
+
+def _without_transaction(engine: Engine) -> Session:
+    autocommit = engine.execution_options(isolation_level="AUTOCOMMIT")
+    return Session(autocommit, expire_on_commit=False)

@@ -11,7 +11,7 @@ from app.assessments import queue
 from app.assessments.models import AssessmentJob
 from app.assessments.queue import Claim
 from app.audit.models import AuditEntry
-from app.db import DatabaseTime, new_id, reading, writing
+from app.db import DatabaseTime, new_id, reading, writing, writing_once
 from app.fleet.models import Operator
 from app.landings.models import Landing
 
@@ -50,8 +50,16 @@ def add(engine: Engine, operator: str, lane: int = 0) -> str:
 
 
 def claim(engine: Engine, lanes: tuple[int, ...] = (0, 1), lease: float = 60.0) -> Claim | None:
-    with writing(engine) as session:
-        return queue.claim(session, worker="w", lanes=lanes, lease=lease, max_attempts=ATTEMPTS)
+    return next(iter(claim_batch(engine, 1, lanes, lease)), None)
+
+
+def claim_batch(
+    engine: Engine, most: int, lanes: tuple[int, ...] = (0, 1), lease: float = 60.0
+) -> list[Claim]:
+    with writing_once(engine) as session:
+        return queue.claim(
+            session, worker="w", lanes=lanes, lease=lease, max_attempts=ATTEMPTS, most=most
+        )
 
 
 def state(engine: Engine, job: str) -> AssessmentJob:
@@ -111,6 +119,82 @@ def test_many_workers_share_without_meeting(engine: Engine, operator: str) -> No
     assert sorted(claimed) == sorted(jobs)
 
 
+class TestBatch:
+    """Several landings in one claim."""
+
+    def test_takes_the_oldest_each_with_a_fence_and_a_lease_of_its_own(
+        self, engine: Engine, operator: str
+    ) -> None:
+        jobs = [add(engine, operator) for _ in range(5)]
+        batch = claim_batch(engine, 3)
+        assert [claimed.assessment_id for claimed in batch] == jobs[:3]
+        assert len({claimed.token for claimed in batch}) == 3
+        rows = [state(engine, job) for job in jobs]
+        assert [row.token for row in rows[:3]] == [claimed.token for claimed in batch]
+        assert [row.state for row in rows] == ["running"] * 3 + ["queued"] * 2
+        assert [row.lease_until for row in rows[:3]] == [claimed.lease_until for claimed in batch]
+
+    def test_carries_what_the_solver_needs(self, engine: Engine, operator: str) -> None:
+        add(engine, operator)
+        add(engine, operator)
+        assert [claimed.inputs for claimed in claim_batch(engine, 5)] == [{}, {}]
+
+    def test_nobody_who_waits_shares_a_batch_with_a_back_fill(
+        self, engine: Engine, operator: str
+    ) -> None:
+        bulk = [add(engine, operator, lane=1) for _ in range(2)]
+        interactive = [add(engine, operator, lane=0) for _ in range(2)]
+        assert [c.assessment_id for c in claim_batch(engine, 4)] == interactive
+        assert [c.assessment_id for c in claim_batch(engine, 4)] == bulk
+
+    def test_what_was_tried_before_comes_alone(self, engine: Engine, operator: str) -> None:
+        jobs = [add(engine, operator) for _ in range(4)]
+        for claimed in claim_batch(engine, 2):
+            let_lease_run_out(engine, claimed.assessment_id)
+        found = [[c.assessment_id for c in claim_batch(engine, 4)] for _ in range(3)]
+        assert found == [jobs[:1], jobs[1:2], jobs[2:]]
+
+    def test_one_lost_claim_leaves_its_neighbours_standing(
+        self, engine: Engine, operator: str
+    ) -> None:
+        first, second, third = (add(engine, operator) for _ in range(3))
+        batch = claim_batch(engine, 3)
+        let_lease_run_out(engine, second)
+        successor = claim(engine)
+        assert successor is not None
+        with writing(engine) as session:
+            held = queue.finish(session, batch)
+        assert [claimed.assessment_id for claimed in held] == [first, third]
+        assert state(engine, second).token == successor.token
+
+    def test_what_is_put_back_has_lost_no_attempt(self, engine: Engine, operator: str) -> None:
+        jobs = [add(engine, operator) for _ in range(3)]
+        batch = claim_batch(engine, 3)
+        let_lease_run_out(engine, jobs[2])
+        assert claim(engine) is not None
+        with writing_once(engine) as session:
+            queue.release(session, batch[1:])
+        rows = [state(engine, job) for job in jobs]
+        assert [(row.state, row.attempts) for row in rows] == [
+            ("running", 1),
+            ("queued", 0),
+            ("running", 2),  # has another holder by now
+        ]
+
+    def test_many_workers_share_without_meeting(self, engine: Engine, operator: str) -> None:
+        jobs = {add(engine, operator) for _ in range(40)}
+
+        def work(_: int) -> list[str]:
+            found = []
+            while batch := claim_batch(engine, 3):
+                found += [claimed.assessment_id for claimed in batch]
+            return found
+
+        with ThreadPoolExecutor(6) as pool:
+            claimed = [job for found in pool.map(work, range(6)) for job in found]
+        assert sorted(claimed) == sorted(jobs)
+
+
 def test_a_lease_that_ran_out_is_claimed_again(engine: Engine, operator: str) -> None:
     job = add(engine, operator)
     first = claim(engine)
@@ -138,14 +222,14 @@ def test_who_lost_the_claim_may_not_write(engine: Engine, operator: str) -> None
     assert late is not None
     assert successor is not None
     with writing(engine) as session:
-        assert not queue.finish(session, late)
+        assert queue.finish(session, [late]) == []
         assert not queue.give_up(session, late, "too late", ATTEMPTS)
         assert not queue.fail(session, late, "too late")
     assert state(engine, job).token == successor.token
     with writing(engine) as session:
-        assert queue.finish(session, successor)
+        assert queue.finish(session, [successor]) == [successor]
     with writing(engine) as session:
-        assert not queue.finish(session, successor)
+        assert queue.finish(session, [successor]) == []
     assert state(engine, job).state == "assessed"
 
 
