@@ -9,6 +9,7 @@ from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 LANES: dict[str, int] = {"interactive": 0, "bulk": 1}
+LANE_NAMES: dict[int, str] = {rank: name for name, rank in LANES.items()}
 
 
 class Settings(BaseSettings):

@@ -4,11 +4,12 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Protocol
 
-from sqlalchemy import insert, select
+from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from app.artefacts.container import decompress
 from app.artefacts.models import Artefact
+from app.db import insert_rows
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +38,7 @@ class DatabaseStore:
         self._session = session
 
     def put(self, artefacts: Sequence[KeptArtefact]) -> None:
-        if artefacts:
-            self._session.execute(insert(Artefact), [asdict(kept) for kept in artefacts])
+        insert_rows(self._session, Artefact, [asdict(kept) for kept in artefacts])
 
     def get(self, assessment_id: str, kind: str) -> bytes | None:
         body = self._session.scalar(

@@ -6,7 +6,6 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from sqlalchemy import insert
 from sqlalchemy.orm import Session
 
 from app.artefacts.container import compress
@@ -15,6 +14,7 @@ from app.assessments import arrays, queue
 from app.assessments.models import HotSpotRow, VerdictRow
 from app.assessments.queue import Claim
 from app.audit import service as audit
+from app.db import insert_rows
 from solver.assessment import Assessment, HotSpot, Verdict
 
 #: Whatever sends an inspector to the aircraft keeps its pictures.
@@ -68,9 +68,8 @@ def record_answers(session: Session, answers: Sequence[Answer]) -> list[Claim]:
     tokens = {claimed.token for claimed in held}
     written = [answer for answer in answers if answer.claim.token in tokens]
     if written:
-        session.execute(insert(VerdictRow), [answer.verdict for answer in written])
-        if spots := [spot for answer in written for spot in answer.hot_spots]:
-            session.execute(insert(HotSpotRow), spots)
+        insert_rows(session, VerdictRow, [answer.verdict for answer in written])
+        insert_rows(session, HotSpotRow, [spot for answer in written for spot in answer.hot_spots])
         DatabaseStore(session).put([kept for answer in written for kept in answer.artefacts])
         audit.record_all(session, [answer.entry for answer in written])
     return held

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from sqlalchemy import insert
 from sqlalchemy.orm import Session
 
 from app.audit.models import AuditEntry
+from app.db import insert_rows
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,5 +52,4 @@ def record(
 
 def record_all(session: Session, entries: Sequence[Entry]) -> None:
     """Add entries, in one round trip."""
-    if entries:
-        session.execute(insert(AuditEntry), [asdict(entry) for entry in entries])
+    insert_rows(session, AuditEntry, [asdict(entry) for entry in entries])

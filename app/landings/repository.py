@@ -1,15 +1,20 @@
 """Queries on landings."""
 
 from collections.abc import Sequence
-from datetime import datetime
+from dataclasses import dataclass
+from datetime import UTC, datetime
 from typing import Any
 
-from sqlalchemy import Row, and_, delete, or_, select
+from sqlalchemy import Row, and_, delete, insert, or_
 from sqlalchemy.orm import Session
 
 from app.assessments.models import AssessmentJob, VerdictRow
-from app.db import DatabaseTime
+from app.assessments.states import State
+from app.audit import service as audit
+from app.config import LANE_NAMES
+from app.db import DatabaseTime, insert_rows, new_id
 from app.landings.answers import LandingFilter
+from app.landings.arrivals import Arrival
 from app.landings.models import IdempotencyKey, Landing
 from app.security import Principal
 from app.tenancy import scoped
@@ -17,19 +22,116 @@ from app.tenancy import scoped
 Listed = Row[Landing, AssessmentJob, VerdictRow | None]
 
 
-def by_record_id(session: Session, principal: Principal, record_id: str) -> Landing | None:
-    statement = scoped(principal, Landing).where(Landing.record_id == record_id)
-    return session.scalars(statement).one_or_none()
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A landing as it is stored, as far as its sender needs to know."""
+
+    landing_id: str
+    assessment_id: str
+    state: str
+    body_digest: str
+    is_repeated: bool = True
 
 
-def by_idempotency_key(session: Session, principal: Principal, key: str) -> IdempotencyKey | None:
-    return session.scalars(
-        select(IdempotencyKey).where(
+def _kept(principal: Principal, *more: Any) -> Any:
+    """Select landings with their assessments as `Kept` holds them, and ``more`` after that."""
+    return (
+        scoped(principal, Landing)
+        .with_only_columns(
+            Landing.id, AssessmentJob.id, AssessmentJob.state, Landing.body_digest, *more
+        )
+        .join(AssessmentJob, AssessmentJob.landing_id == Landing.id)
+    )
+
+
+def kept(session: Session, principal: Principal, record_ids: Sequence[str]) -> dict[str, Kept]:
+    """Landings that are known already, by their record's identity."""
+    statement = _kept(principal, Landing.record_id).where(Landing.record_id.in_(record_ids))
+    return {row[4]: Kept(*row[:4]) for row in session.execute(statement)}
+
+
+def store(
+    session: Session, principal: Principal, arrived: Sequence[Arrival], lane: int
+) -> dict[str, Kept]:
+    """Store landings with their assessments and audit entries; raises if one is known already."""
+    landings, jobs, entries = [], [], []
+    stored: dict[str, Kept] = {}
+    for arrival in arrived:
+        landing_id, assessment_id = new_id(), new_id()
+        landings.append(
+            {
+                "id": landing_id,
+                "operator_id": principal.operator_id,
+                "record_id": arrival.record_id,
+                "body_digest": arrival.body_digest,
+                "aircraft": arrival.aircraft,
+                "tail": arrival.tail,
+                "touchdown_at": arrival.touchdown_at or datetime.now(UTC),
+                "record": arrival.posted,
+                "inputs": arrival.inputs,
+                "sd": arrival.sd,
+                "sd_defaulted": arrival.sd_defaulted,
+                "taken_as_zero": arrival.taken_as_zero,
+            }
+        )
+        jobs.append(
+            {
+                "id": assessment_id,
+                "operator_id": principal.operator_id,
+                "landing_id": landing_id,
+                "lane": lane,
+            }
+        )
+        entries.append(
+            audit.Entry(
+                operator_id=principal.operator_id,
+                actor=principal.actor,
+                action="received",
+                subject="landing",
+                subject_id=landing_id,
+                detail={
+                    "assessment": assessment_id,
+                    "lane": LANE_NAMES[lane],
+                    "body_sha256": arrival.body_digest,
+                },
+            )
+        )
+        stored[arrival.record_id] = Kept(
+            landing_id, assessment_id, State.QUEUED, arrival.body_digest, is_repeated=False
+        )
+    insert_rows(session, Landing, landings)
+    insert_rows(session, AssessmentJob, jobs)
+    audit.record_all(session, entries)
+    return stored
+
+
+def by_idempotency_key(session: Session, principal: Principal, key: str) -> Kept | None:
+    """The landing that a key was used for, with the digest of the body it came with."""
+    statement = (
+        _kept(principal)
+        .join(IdempotencyKey, IdempotencyKey.landing_id == Landing.id)
+        .where(
             IdempotencyKey.operator_id == principal.operator_id,
             IdempotencyKey.key == key,
             IdempotencyKey.expires_at > DatabaseTime(),
         )
-    ).one_or_none()
+    )
+    row = session.execute(statement).one_or_none()
+    return None if row is None else Kept(*row)
+
+
+def remember_key(
+    session: Session, principal: Principal, key: str, kept: Kept, lifetime: float
+) -> None:
+    session.execute(
+        insert(IdempotencyKey).values(
+            operator_id=principal.operator_id,
+            key=key,
+            body_digest=kept.body_digest,
+            landing_id=kept.landing_id,
+            expires_at=DatabaseTime(lifetime),
+        )
+    )
 
 
 def forget_expired_keys(session: Session) -> None:
