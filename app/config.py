@@ -31,6 +31,8 @@ class Settings(BaseSettings):
 
     #: Records are a few kilobytes, also with many contacts; what is larger is a mistake.
     max_body_bytes: Annotated[int, Field(ge=1024)] = 1024 * 1024
+    #: A stream of records is never held, only stored; each of its lines is limited as a body is.
+    max_bulk_bytes: Annotated[int, Field(ge=1024)] = 8 * 1024**3
     #: An oversized body is read and thrown away up to here, so that its sender sees the answer
     #: instead of a reset connection.
     discard_body_bytes: Annotated[int, Field(ge=0)] = 128 * 1024 * 1024

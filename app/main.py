@@ -23,6 +23,7 @@ from app.fleet.endpoints import router as fleet
 from app.fleet.registry import AircraftRegistry
 from app.fleet.service import remember_models
 from app.health import router as health
+from app.landings.endpoints import BULK_PATH
 from app.landings.endpoints import router as landings
 from app.observe import Metrics, RequestObserver, configure_logging
 from app.sweeper import Sweeper
@@ -74,7 +75,10 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             Middleware(CorrelationIdMiddleware),
             Middleware(RequestObserver, metrics=metrics),
             Middleware(
-                BodyLimit, limit=settings.max_body_bytes, discard=settings.discard_body_bytes
+                BodyLimit,
+                limit=settings.max_body_bytes,
+                discard=settings.discard_body_bytes,
+                streams={BULK_PATH: settings.max_bulk_bytes},
             ),
         ],
     )
