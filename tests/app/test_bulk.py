@@ -1,9 +1,12 @@
 """Records in as a stream of lines: one outcome each, good ones never held up by bad ones."""
 
+import http.client
 import json
+import socket
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import httpx2
@@ -13,14 +16,17 @@ from sqlalchemy.exc import DataError, IntegrityError, OperationalError
 
 from app.assessments.models import AssessmentJob
 from app.audit.models import AuditEntry
+from app.cli.key import create_key
 from app.db import reading
 from app.landings import bulk
 from app.landings import service as landings
 from app.landings.models import Landing
 from app.ndjson import LineCutter
-from tests.conftest import Service
+from tests.conftest import Service, Stack
 from tests.contract.test_bad_input import BAD_RECORDS
 from tests.records import record
+from tests.servers import free_port
+from tests.worker.programs import programs
 
 NDJSON = {"content-type": "application/x-ndjson"}
 
@@ -278,6 +284,54 @@ class TestDatabase:
         assert end["failed"] == 8
         _, end = answers(post(service, lines(numbered(8))))
         assert end["accepted"] == 8
+
+
+class TestOverTheWire:
+    """A real server and senders with habits."""
+
+    @pytest.fixture
+    def served(self, stack: Stack, tmp_path: Path) -> Iterator[tuple[int, str]]:
+        settings = stack.settings.model_copy(update={"port": free_port(), "auto_migrate": False})
+        key = create_key(settings, operator="alpha", scopes=("post",))
+        with programs(settings, tmp_path) as running:
+            running.start_api()
+            yield settings.port, key
+
+    def test_a_sender_may_read_nothing_before_it_has_sent_everything(
+        self, served: tuple[int, str]
+    ) -> None:
+        port, key = served
+        # More than the buffers of both ends hold, in either direction.
+        content = lines({"colour": "x" * 1000} for _ in range(15_000))
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+        connection.request("POST", "/v1/landings/bulk", content, {"X-API-Key": key, **NDJSON})
+        answer = connection.getresponse().read()
+        connection.close()
+        assert len(content) > 10_000_000
+        assert len(answer) > 10_000_000
+        assert json.loads(answer.splitlines()[-1])["refused"] == 15_000
+
+    def test_outcomes_come_while_the_sender_still_sends(self, served: tuple[int, str]) -> None:
+        port, key = served
+        records = numbered(bulk.CHUNK_ROWS + 100)
+        first, second = lines(records[:-50]), lines(records[-50:])
+        with socket.create_connection(("127.0.0.1", port), timeout=60) as sender:
+            head = (
+                f"POST /v1/landings/bulk HTTP/1.1\r\nHost: here\r\nX-API-Key: {key}\r\n"
+                f"Content-Type: application/x-ndjson\r\nContent-Length: {len(first + second)}\r\n"
+                "Expect: 100-continue\r\n\r\n"
+            )
+            sender.sendall(head.encode())
+            stream = sender.makefile("rb")
+            assert stream.readline().startswith(b"HTTP/1.1 100")
+            sender.sendall(first)
+            found = b""
+            while f'"r-{bulk.CHUNK_ROWS - 1}"'.encode() not in found:
+                found = stream.readline()
+            sender.sendall(second)
+            while b'"end"' not in found:
+                found = stream.readline()
+        assert json.loads(found)["accepted"] == bulk.CHUNK_ROWS + 100
 
 
 class TestLineCutter:
