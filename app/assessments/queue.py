@@ -15,7 +15,7 @@ from sqlalchemy.orm import Session
 from app.assessments.models import PENDING_CLAUSE, RUNNING_CLAUSE, AssessmentJob
 from app.assessments.states import State
 from app.audit import service as audit
-from app.db import DatabaseTime, NewToken
+from app.db import DatabaseTime, NewToken, UnhurriedCommit
 from app.landings.models import Landing
 
 _LONGEST_ERROR = 4000
@@ -111,6 +111,8 @@ def claim(
             AssessmentJob.lease_until,
             record.scalar_subquery(),
             AssessmentJob.created_at,
+            # A claim that a power cut takes back is made again; who holds it then is fenced.
+            UnhurriedCommit(),
         )
         .execution_options(synchronize_session=False)
     ).all()
