@@ -3,17 +3,19 @@
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import pytest
-from sqlalchemy import Engine, select, update
+from sqlalchemy import Engine, event, select, text, update
 
 from app.assessments import queue
 from app.assessments.models import AssessmentJob
 from app.assessments.queue import Claim
 from app.audit.models import AuditEntry
-from app.db import DatabaseTime, new_id, reading, writing, writing_once
+from app.db import DatabaseTime, make_engine, new_id, reading, writing, writing_once
 from app.fleet.models import Operator
 from app.landings.models import Landing
+from tests.conftest import Stack
 
 ATTEMPTS = 3
 
@@ -291,3 +293,50 @@ def test_due_counts_up_to_its_limit(engine: Engine, operator: str) -> None:
     with reading(engine) as session:
         assert queue.due(session, max_attempts=ATTEMPTS, limit=3) == 3
         assert queue.due(session, max_attempts=ATTEMPTS, limit=10) == 5
+
+
+def test_a_claim_reads_a_few_rows_of_a_long_queue_whatever_the_planner_believes(
+    stack: Stack, operator: str
+) -> None:
+    if stack.settings.database_url is None:
+        pytest.skip("SQLite plans by rule, not by statistics")
+    engine = make_engine(stack.settings.sqlalchemy_url, is_for_claims=True)
+    rows = {"operator": operator, "number": 3000}
+    with writing(engine) as session:  # and nobody has counted them
+        session.execute(
+            text(
+                "INSERT INTO landing (id, operator_id, record_id, body_digest, aircraft, "
+                "touchdown_at, received_at, record, inputs, sd, sd_defaulted, taken_as_zero) "
+                "SELECT 'l' || n, :operator, 'r' || n, '', 'mini', now(), now(), "
+                "'{}', '{}', '{}', '[]', '[]' FROM generate_series(1, :number) n"
+            ),
+            rows,
+        )
+        session.execute(
+            text(
+                "INSERT INTO assessment (id, operator_id, landing_id, lane, state, attempts, "
+                "created_at, version) SELECT 'a' || n, :operator, 'l' || n, 1, 'queued', 0, "
+                "clock_timestamp(), 1 FROM generate_series(1, :number) n"
+            ),
+            rows,
+        )
+    asked: list[tuple[str, Any]] = []
+    event.listen(engine, "before_cursor_execute", lambda _c, _cursor, *said: asked.append(said[:2]))
+    assert len(claim_batch(engine, 8)) == 8
+    statement, values = asked[-1]
+    with engine.connect() as connection:
+        explained = connection.exec_driver_sql(
+            f"EXPLAIN (ANALYZE, FORMAT JSON) {statement}", values
+        )
+        (plan,) = explained.scalar_one()
+    engine.dispose()
+    scans = [node for node in _nodes(plan["Plan"]) if node.get("Relation Name") == "assessment"]
+    read = [node["Actual Rows"] + node.get("Rows Removed by Filter", 0) for node in scans]
+    assert read
+    assert max(read) <= 2 * 8
+
+
+def _nodes(plan: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    yield plan
+    for inner in plan.get("Plans", []):
+        yield from _nodes(inner)
