@@ -41,7 +41,7 @@ from solver.aircraft.bizjet import build_bizjet
 from solver.assess import AssessmentModel, assess_landing, load_assessment_model
 from tests import records, servers
 from tests.solver.aircraft.mini import write_mini_aircraft
-from tests.worker.programs import Programs, descendants, programs
+from tests.worker.programs import Programs, children, descendants, programs
 
 ROOT = Path(__file__).resolve().parents[1]
 VAR = ROOT / "var"
@@ -256,6 +256,21 @@ def throughput(bench: Bench, count: int) -> None:
     }
 
 
+def memory_of_children(bench: Bench) -> None:
+    """Memory that each of the worker's processes has for itself, and what it shares."""
+    (worker,) = children(bench.servers["worker"])
+    found = []
+    for child in children(worker):
+        lines = Path(f"/proc/{child}/smaps_rollup").read_text().splitlines()[1:]
+        sizes = {name: int(size.split()[0]) for name, size in (line.split(":") for line in lines)}
+        own = sizes["Private_Clean"] + sizes["Private_Dirty"]
+        found.append((own / 1024, (sizes["Rss"] - own) / 1024))
+    bench.figures |= {
+        "worker_processes_own_mb": [own for own, _ in found],
+        "worker_processes_shared_mb": [shared for _, shared in found],
+    }
+
+
 def bulk_intake(bench: Bench, count: int) -> None:
     """Measure a back-fill over HTTP, nothing else running."""
     body = b"".join(bench.record(number, "bulk") + b"\n" for number in range(count))
@@ -389,6 +404,7 @@ def main(arguments: list[str] | None = None) -> None:
                 bench.servers["worker"] = pid
                 idle_latency(bench)
                 throughput(bench, count)
+                memory_of_children(bench)
                 del bench.servers["worker"]
             after, again = solver_rate(model, options.alone)
             bulk_intake(bench, options.bulk)
@@ -465,8 +481,13 @@ def report(figures: dict[str, Any]) -> None:
             for name in ("api", "postgres", "client")
         ),
     ]
+    own, shared = (
+        ", ".join(f"{size:.0f}" for size in figures[f"worker_processes_{kind}_mb"])
+        for kind in ("own", "shared")
+    )
+    rows.append(("memory of each worker process", f"own {own} MB, shared {shared} MB"))
     for title, value in rows:
-        print(f"  {title:<62}{value}")
+        print(f"  {title:<66}{value}")
     print(f"{figures['took_s']:.0f} s in all")
 
 

@@ -40,6 +40,7 @@ def running(stack: Stack, tmp_path: Path) -> Iterator[Programs]:
             "hard_time_limit": 7.0,
             "soft_time_limit": 5.0,
             "drain_budget": 0.5,
+            "batch_seconds": 2.0,
             "sweep_interval": 0.3,
             "max_attempts": 5,
             "auto_migrate": False,
@@ -95,7 +96,8 @@ def test_killed_workers_and_a_wiped_broker_lose_and_double_nothing(
     assert len(set(places)) == LANDINGS
 
     wait_until(lambda: count(engine, "assessed") >= 20, "the first landings", PATIENCE)
-    wait_until(lambda: count(engine, "running") >= 1, "a landing in mid-solve", PATIENCE)
+    # More than there are processes: both are in the middle of a batch.
+    wait_until(lambda: count(engine, "running") >= 4, "batches in mid-solve", PATIENCE)
     for member in descendants(supervisor.pid):
         kill_at_once(member)
     wipe_broker(stack)
