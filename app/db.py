@@ -152,6 +152,7 @@ def make_engine(url: str, *, is_for_claims: bool = False) -> Engine:
         )
         event.listen(engine, "checkin", _note_idle)
         event.listen(engine, "checkout", _test_after_a_pause)
+        event.listen(engine, "connect", _plan_anew)
         if is_for_claims:
             event.listen(engine, "connect", _keep_to_indices)
         return engine
@@ -181,6 +182,12 @@ def _test_after_a_pause(connection: Any, record: ConnectionPoolEntry, _proxy: An
         raise InvalidatePoolError from error
 
 
+def _plan_anew(connection: Any, _record: ConnectionPoolEntry) -> None:
+    """A plan made while a table was small is not kept: a back-fill makes it large in a minute."""
+    connection.execute("SET plan_cache_mode = force_custom_plan")
+    connection.commit()
+
+
 def _keep_to_indices(connection: Any, _record: ConnectionPoolEntry) -> None:
     """A claim reads the first rows of an index, whatever the planner believes.
 
@@ -190,8 +197,7 @@ def _keep_to_indices(connection: Any, _record: ConnectionPoolEntry) -> None:
     connection.execute(
         "SET enable_sort = off; SET enable_bitmapscan = off; "
         # A few sorted rows stay necessary; their fictitious costs would call the compiler.
-        "SET jit = off; "
-        "SET plan_cache_mode = force_custom_plan"
+        "SET jit = off"
     )
     connection.commit()
 

@@ -16,9 +16,9 @@ from starlette.types import Receive
 
 from app.body_limit import body_too_large
 from app.context import ServiceContext
-from app.db import writing
+from app.db import writing, writing_once
 from app.errors import ProblemDocument, invalid_record, problem
-from app.landings import arrivals, service
+from app.landings import arrivals, repository, service
 from app.landings.answers import BulkEnd, BulkOutcome, Outcome
 from app.landings.arrivals import Arrival
 from app.landings.field_errors import InvalidRecordError
@@ -35,6 +35,11 @@ LANE = "bulk"
 #: outcomes several times a second.
 CHUNK_ROWS = 500
 CHUNK_BYTES = 4 * 1024 * 1024
+
+#: Whenever a stream has grown by this factor, what the database believes about its tables is old:
+#: it would look new records up by reading all that their operator has.
+STATISTICS_FROM = 2_000
+STATISTICS_FACTOR = 4
 
 #: A row with more mistakes is no touchdown record, and its problem need not name them all.
 MOST_ERRORS = 50
@@ -60,6 +65,7 @@ class BulkIntake:
         self._cutter = LineCutter(context.settings.max_body_bytes)
         self._parts = None if boundary is None else PartReader(boundary)
         self._counts: Counter[Outcome] = Counter()
+        self._count_anew_at = STATISTICS_FROM
 
     async def outcomes(self, receive: Receive) -> AsyncIterator[bytes]:
         """A line for each record, in their order, and one that says that all were read."""
@@ -98,6 +104,7 @@ class BulkIntake:
         fleet = arrivals.fleet(self._context.registry)
         rows = [self._checked(line, fleet) for line in lines]
         self._store([row for row in rows if row.arrival is not None])
+        self._count_anew()
         received = self._context.metrics.landings_received
         outcomes = [row.outcome for row in rows if row.outcome is not None]
         for outcome in outcomes:
@@ -105,6 +112,16 @@ class BulkIntake:
         received.labels("new").inc(sum(o.outcome is Outcome.ACCEPTED for o in outcomes))
         received.labels("repeated").inc(sum(o.outcome is Outcome.REPEATED for o in outcomes))
         return b"".join(_json(outcome) for outcome in outcomes)
+
+    def _count_anew(self) -> None:
+        if self._counts[Outcome.ACCEPTED] < self._count_anew_at:
+            return
+        self._count_anew_at *= STATISTICS_FACTOR
+        try:
+            with writing_once(self._context.engine) as session:
+                repository.count_anew(session)
+        except DBAPIError as error:
+            log.warning("bulk.not_counted", error=str(error.orig))
 
     def _checked(self, line: Line, fleet: arrivals.Fleet) -> _Row:
         if line.text is None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
-from sqlalchemy import Row, and_, delete, insert, or_
+from sqlalchemy import Row, and_, delete, insert, or_, text
 from sqlalchemy.orm import Session
 
 from app.assessments.models import AssessmentJob, VerdictRow
@@ -33,21 +33,26 @@ class Kept:
     is_repeated: bool = True
 
 
-def _kept(principal: Principal, *more: Any) -> Any:
-    """Select landings with their assessments as `Kept` holds them, and ``more`` after that."""
-    return (
-        scoped(principal, Landing)
-        .with_only_columns(
-            Landing.id, AssessmentJob.id, AssessmentJob.state, Landing.body_digest, *more
-        )
-        .join(AssessmentJob, AssessmentJob.landing_id == Landing.id)
-    )
-
-
 def kept(session: Session, principal: Principal, record_ids: Sequence[str]) -> dict[str, Kept]:
     """Landings that are known already, by their record's identity."""
-    statement = _kept(principal, Landing.record_id).where(Landing.record_id.in_(record_ids))
-    return {row[4]: Kept(*row[:4]) for row in session.execute(statement)}
+    statement = (
+        scoped(principal, Landing)
+        .with_only_columns(Landing.id, Landing.record_id, Landing.body_digest)
+        .where(Landing.record_id.in_(record_ids))
+    )
+    landings = session.execute(statement).all()
+    if not landings:
+        return {}
+    # Asked apart: joined to a table that has just grown, new records would be sought by reading it.
+    jobs = scoped(principal, AssessmentJob).with_only_columns(
+        AssessmentJob.landing_id, AssessmentJob.id, AssessmentJob.state
+    )
+    found = session.execute(jobs.where(AssessmentJob.landing_id.in_([row[0] for row in landings])))
+    by_landing = {row[0]: row for row in found}
+    return {
+        record_id: Kept(*by_landing[landing_id], body_digest)
+        for landing_id, record_id, body_digest in landings
+    }
 
 
 def store(
@@ -105,10 +110,18 @@ def store(
     return stored
 
 
+def count_anew(session: Session) -> None:
+    """Bring Postgres's statistics of the queue up to date; its own daemon may take a minute."""
+    if session.get_bind().dialect.name == "postgresql":
+        session.execute(text("ANALYZE landing (id, operator_id, record_id), assessment"))
+
+
 def by_idempotency_key(session: Session, principal: Principal, key: str) -> Kept | None:
     """The landing that a key was used for, with the digest of the body it came with."""
     statement = (
-        _kept(principal)
+        scoped(principal, Landing)
+        .with_only_columns(Landing.id, AssessmentJob.id, AssessmentJob.state, Landing.body_digest)
+        .join(AssessmentJob, AssessmentJob.landing_id == Landing.id)
         .join(IdempotencyKey, IdempotencyKey.landing_id == Landing.id)
         .where(
             IdempotencyKey.operator_id == principal.operator_id,

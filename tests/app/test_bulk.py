@@ -276,6 +276,17 @@ class TestDatabase:
         assert tried == [8]
         assert end["accepted"] == 8
 
+    def test_its_statistics_follow_what_came_in(
+        self, service: Service, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setattr(bulk, "STATISTICS_FROM", 100)
+        monkeypatch.setattr(bulk, "CHUNK_ROWS", 50)
+        post(service, lines(numbered(250)))
+        if service.settings.database_url is not None:
+            with service.engine.connect() as connection:
+                counted = "SELECT reltuples FROM pg_class WHERE relname = 'landing'"
+                assert connection.exec_driver_sql(counted).scalar_one() >= 100
+
     def test_an_absent_database_fails_rows_that_may_be_sent_again(
         self, service: Service, refusing: Any
     ) -> None:
