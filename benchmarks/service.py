@@ -315,6 +315,8 @@ def fill(bench: Bench, count: int) -> None:
             repository.store(session, principal, arrived, LANES["bulk"])
         number += size
         bench.progress("filling the queue", number / missing)
+    with writing(bench.engine) as session:
+        repository.count_anew(session)  # as a stream of so many would have
 
 
 def behind_the_queue(bench: Bench) -> None:
