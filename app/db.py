@@ -176,8 +176,9 @@ def _test_after_a_pause(connection: Any, record: ConnectionPoolEntry, _proxy: An
     if idle_since is None or monotonic() - idle_since < TRUSTED_IDLE:
         return
     try:
+        connection.autocommit = True  # or the question would cost a transaction
         connection.execute("SELECT 1")
-        connection.rollback()
+        connection.autocommit = False
     except psycopg.Error as error:
         raise InvalidatePoolError from error
 

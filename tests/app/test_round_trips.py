@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from app import db
 from app.broker import Nudger
 from app.landings import bulk
 from tests.conftest import Service, Stack, make_service, make_stack
@@ -21,9 +22,14 @@ WARM = 8
 
 @pytest.fixture
 def trips(
-    request: pytest.FixtureRequest, tmp_path: Path, models: Models
+    request: pytest.FixtureRequest,
+    tmp_path: Path,
+    models: Models,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> Iterator[tuple[RoundTrips, Service]]:
     """A service whose way to Postgres is watched; every statement was used before."""
+    # On a slow machine connections would be asked, after a pause, whether they still live.
+    monkeypatch.setattr(db, "TRUSTED_IDLE", 3600.0)
     with make_stack("postgres+redis", tmp_path / "var", request) as stack:
         url = stack.settings.database_url
         assert url is not None
@@ -39,7 +45,8 @@ def trips(
 
 
 def drain(service: Service, most: int = 1) -> int:
-    settings = service.settings.model_copy(update={"batch_limit": most, "batch_seconds": 3600.0})
+    without_clock = {"batch_limit": most, "batch_seconds": 3600.0, "drain_budget": 3600.0}
+    settings = service.settings.model_copy(update=without_clock)
     nudger = Nudger(settings)
     count = work_off(service.engine, settings, service.models, nudger, Pace(1e-3))
     nudger.close()
