@@ -9,7 +9,7 @@ from sqlalchemy.orm import Session
 
 from app.artefacts.container import decompress
 from app.artefacts.models import Artefact
-from app.db import insert_rows
+from app.rows import insert_rows
 
 
 @dataclass(frozen=True, slots=True)

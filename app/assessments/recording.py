@@ -14,7 +14,7 @@ from app.assessments import arrays, queue
 from app.assessments.models import HotSpotRow, VerdictRow
 from app.assessments.queue import Claim
 from app.audit import service as audit
-from app.db import insert_rows
+from app.rows import insert_rows
 from solver.assessment import Assessment, HotSpot, Verdict
 
 #: Whatever sends an inspector to the aircraft keeps its pictures.

@@ -7,7 +7,7 @@ from typing import Any
 from sqlalchemy.orm import Session
 
 from app.audit.models import AuditEntry
-from app.db import insert_rows
+from app.rows import insert_rows
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

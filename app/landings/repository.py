@@ -12,10 +12,11 @@ from app.assessments.models import AssessmentJob, VerdictRow
 from app.assessments.states import State
 from app.audit import service as audit
 from app.config import LANE_NAMES
-from app.db import DatabaseTime, insert_rows, new_id
+from app.db import DatabaseTime, new_id
 from app.landings.answers import LandingFilter
 from app.landings.arrivals import Arrival
 from app.landings.models import IdempotencyKey, Landing
+from app.rows import insert_rows
 from app.security import Principal
 from app.tenancy import scoped
 
