@@ -72,7 +72,6 @@ CASES = (
         fuel=(0.71,),
         payload=(0.35, 0.1, 0.05),
     ),
-    # The settings of the basis were chosen without a look at this one.
     Case(
         "tail-down",
         "8 degrees of pitch, 8.5 ft/s, port wing low, nearly full tanks",
@@ -86,5 +85,20 @@ CASES = (
         ),
         fuel=(0.93, 0.88),
         payload=(0.05, 0.4, 0.9),
+    ),
+    # The settings of the basis were chosen without a look at this one.
+    Case(
+        "one-wheel",
+        "5 degrees of roll, 7 ft/s, starboard tank nearly empty, baggage only",
+        Contact(
+            sink_rate=2.1,
+            ground_speed=61.0,
+            pitch=radians(3.0),
+            roll=radians(5.0),
+            drift=radians(-2.0),
+            roll_rate=radians(-4.0),
+        ),
+        fuel=(0.63, 0.07),
+        payload=(0.0, 0.05, 1.0),
     ),
 )

@@ -42,7 +42,10 @@ class BasisSettings:
     """What goes into a reduced basis; part of the key under which a model is cached."""
 
     modes: int = 100  #: elastic modes of each mass state
-    fills: tuple[float, ...] = (0.0, 0.5, 1.0)  #: mass states, all groups filled alike
+    #: Mass states: fills repeated over the groups, all alike or some full where others are empty.
+    fills: tuple[tuple[float, ...], ...] = (
+        (0.5,), (0.0,), (1.0,), (0.0, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0), (0.0, 1.0), (1.0, 0.0),
+    )  # fmt: skip
     residual_order: int = 2  #: vectors of each load: 1 static response, 2 and more Krylov
     cutoff_frequency: float = 100.0  #: where the terms of the expansion are compared [Hz]
     mode_tolerance: float = 1e-2  #: share of a further mass state's mode that may be dropped
@@ -52,9 +55,16 @@ class BasisSettings:
     harmonic_tolerance: float = 2e-3  #: the same of the response at those frequencies
 
 
-def mass_state(base: "Inertia", groups: "tuple[Inertia, ...]", fill: float) -> "Inertia":
-    """Inertia with every group filled to ``fill`` of its capacity."""
-    return combine([(1.0, base), *((fill, group) for group in groups)])
+#: The state whose modes the basis is turned to.
+MIDDLE = (0.5,)
+
+
+def mass_state(
+    base: "Inertia", groups: "tuple[Inertia, ...]", fills: tuple[float, ...] = MIDDLE
+) -> "Inertia":
+    """Inertia with the groups filled to ``fills`` of their capacity, repeated over the groups."""
+    each = np.resize(fills, len(groups))
+    return combine([(1.0, base), *zip(each.tolist(), groups, strict=True)])
 
 
 def elastic_modes(body: FreeBody, count: int) -> tuple[Array, Array]:
@@ -145,7 +155,7 @@ def build_basis(
     applied : (n, k) array
         Loads of unit pin and air components.
     """
-    middle = free_body(structure, mass_state(base, groups, 0.5))
+    middle = free_body(structure, mass_state(base, groups))
     stiffness = structure.stiffness
     basis = np.zeros((structure.n_free, 0))
     for index, fill in enumerate(settings.fills):

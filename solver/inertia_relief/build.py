@@ -51,7 +51,7 @@ def project(
         choose the axes in the space of the basis and how the stress is compressed.
     """
     parts = (base, *groups)
-    origin = mass_state(base, groups, 0.5).rigid_body_properties().centre_of_gravity
+    origin = mass_state(base, groups).rigid_body_properties().centre_of_gravity
     full = np.hstack([structure.rigid_modes(origin), basis])
     masses, operators, inertial = [], [], []
     for index, part in enumerate(parts):
