@@ -20,7 +20,7 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError
 
-from app.landings.units import (
+from solver.units import (
     AngleUnit,
     AngularRateUnit,
     Dimension,

@@ -7,13 +7,14 @@ from typing import get_args
 
 import pytest
 
-from app.landings import inputs, units
+from app.landings import inputs
 from app.landings.field_errors import InvalidRecordError
 from app.landings.intake import parse_record, read_record_file, take_in
-from app.landings.units import Dimension, allowed_units, from_si, to_si
+from solver import units
 from solver.aircraft.definition import AircraftDefinition
 from solver.aircraft.definition_reader import load_definition
 from solver.landing.contact import LiftModel
+from solver.units import Dimension, allowed_units, from_si, to_si
 from tests.records import contact, record
 
 

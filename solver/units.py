@@ -1,4 +1,4 @@
-"""The one place where aviation units become SI.
+"""The one place where aviation units become SI, for records and recordings alike.
 
 Factors are exact by definition: foot and inch of 1959, international pound, international nautical
 mile, standard gravity of the 3rd CGPM (1901).
@@ -26,6 +26,7 @@ class Dimension(StrEnum):
     LOAD_FACTOR = "load factor"
     STATION = "station"
     TIME = "time"
+    LENGTH = "length"
     FRACTION = "fraction"
 
 
@@ -36,6 +37,7 @@ MassUnit = Literal["kg", "lb", "t"]
 LoadFactorUnit = Literal["g", "m/s2"]
 StationUnit = Literal["%MAC", "m", "ft", "in"]
 TimeUnit = Literal["s", "ms"]
+LengthUnit = Literal["m", "ft"]
 FractionUnit = Literal["1", "%"]
 
 #: Chord percentages have no factor of their own: they need the aircraft's reference chord.
@@ -52,9 +54,14 @@ _FACTORS: dict[Dimension, dict[str, float]] = {
     Dimension.ANGLE: {"deg": math.pi / 180.0, "rad": 1.0},
     Dimension.ANGULAR_RATE: {"deg/s": math.pi / 180.0, "rad/s": 1.0},
     Dimension.MASS: {"kg": 1.0, "lb": POUND, "t": 1000.0},
-    Dimension.LOAD_FACTOR: {"g": 1.0, "m/s2": 1.0 / STANDARD_GRAVITY},
+    Dimension.LOAD_FACTOR: {
+        "g": 1.0,
+        "m/s2": 1.0 / STANDARD_GRAVITY,
+        "mg": 1e-3,
+    },
     Dimension.STATION: {"m": 1.0, "ft": FOOT, "in": INCH},
     Dimension.TIME: {"s": 1.0, "ms": 1e-3},
+    Dimension.LENGTH: {"m": 1.0, "ft": FOOT},
     Dimension.FRACTION: {"1": 1.0, "%": 0.01},
 }
 
@@ -66,6 +73,7 @@ _LITERALS: dict[Dimension, object] = {
     Dimension.LOAD_FACTOR: LoadFactorUnit,
     Dimension.STATION: StationUnit,
     Dimension.TIME: TimeUnit,
+    Dimension.LENGTH: LengthUnit,
     Dimension.FRACTION: FractionUnit,
 }
 
