@@ -87,7 +87,7 @@ def _solve(known: Models, stored: dict[str, object]) -> Assessment:
     try:
         return solve(model, record)
     except (RecordError, SimulationDivergedError) as error:
-        return undetermined(model.content_hash, error)
+        return undetermined(model, record, error)
 
 
 def _write(
