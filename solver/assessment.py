@@ -96,17 +96,17 @@ class RuleStatus(StrEnum):
 
     PASSED = "passed"
     EXCEEDED = "exceeded"
-    CANNOT_TELL = "cannot tell"
+    CANNOT_TELL = "cannot_tell"
 
 
 class RuleDifference(StrEnum):
     """How the maker's rule and the stress verdict stand to each other."""
 
     AGREE = "agree"
-    STRESS_STRICTER = "stress stricter"
-    RULE_STRICTER = "rule stricter"
-    RULE_CANNOT_TELL = "rule cannot tell"
-    NO_RULE = "no rule"  #: the aircraft's definition names none
+    STRESS_STRICTER = "stress_stricter"
+    RULE_STRICTER = "rule_stricter"
+    RULE_CANNOT_TELL = "rule_cannot_tell"
+    NO_RULE = "no_rule"  #: the aircraft's definition names none
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +132,7 @@ class RuleVerdict:
 
     rule: str
     title: str
-    status: RuleStatus  #: exceeded if any finding is, else "cannot tell" if any is
+    status: RuleStatus  #: exceeded if any finding is, else cannot_tell if any is
     verdict: Verdict  #: NORMAL, INSPECT, HARD, or UNDETERMINED where the rule cannot tell
     findings: tuple[RuleFinding, ...]
 

@@ -12,7 +12,7 @@ from app.assessments import arrays, queue
 from app.assessments.models import HotSpotRow, VerdictRow
 from app.assessments.queue import Claim
 from app.audit import service as audit
-from solver.assessment import Assessment, HotSpot, Verdict
+from solver.assessment import Assessment, HotSpot, RuleVerdict, Verdict
 
 #: Whatever sends an inspector to the aircraft keeps its pictures.
 _ALWAYS_KEPT = (Verdict.INSPECT, Verdict.HARD, Verdict.UNDETERMINED)
@@ -32,7 +32,7 @@ def record_assessment(
     session.add(_verdict(claimed, inputs, assessment))
     session.flush()
     session.add_all(_hot_spot(claimed.assessment_id, spot) for spot in assessment.hot_spots)
-    if assessment.verdict in _ALWAYS_KEPT or not assessment.worst_utilisation < keeps_arrays_from:
+    if assessment.action in _ALWAYS_KEPT or not assessment.worst_utilisation < keeps_arrays_from:
         _keep_arrays(session, claimed.assessment_id, assessment)
     audit.record(
         session,
@@ -45,6 +45,7 @@ def record_assessment(
         program_version=assessment.program_version,
         assessment=claimed.assessment_id,
         verdict=str(assessment.verdict),
+        action_asked=str(assessment.action),
         attempt=claimed.attempts,
     )
     return True
@@ -65,6 +66,9 @@ def _verdict(claimed: Claim, inputs: dict[str, Any], assessment: Assessment) -> 
         operator_id=claimed.operator_id,
         landing_id=claimed.landing_id,
         verdict=assessment.verdict,
+        action=assessment.action,
+        rule_difference=assessment.rule_difference,
+        makers_rule=_rule(assessment.makers_rule),
         probability_limit_exceeded=_number(assessment.probability_limit_exceeded),
         driving_contact=assessment.driving_contact,
         worst_utilisation=_number(assessment.worst_utilisation),
@@ -105,6 +109,13 @@ def _hot_spot(assessment_id: str, spot: HotSpot) -> HotSpotRow:
         ata_chapter=spot.ata_chapter,
         inspection=spot.inspection,
     )
+
+
+def _rule(verdict: RuleVerdict | None) -> dict[str, Any] | None:
+    if verdict is None:
+        return None
+    findings = [_plain(asdict(finding)) for finding in verdict.findings]
+    return asdict(verdict) | {"findings": findings}
 
 
 def _number(value: float | None) -> float | None:

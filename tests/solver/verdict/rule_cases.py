@@ -25,7 +25,7 @@ LANDING_MASS = 60_000.0
 
 
 @cache
-def _mini() -> AircraftDefinition:
+def mini_definition() -> AircraftDefinition:
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "definition.toml").write_bytes(DEFINITION.read_bytes())
         return load_definition(Path(folder))
@@ -57,8 +57,8 @@ def held(
     histories: tuple[LandingHistory, ...] = (),
 ) -> RuleVerdict:
     """What a rule says of contacts."""
-    masses = dataclasses.replace(_mini().masses, maximum_landing=maximum_landing)
-    definition = dataclasses.replace(_mini(), masses=masses)
+    masses = dataclasses.replace(mini_definition().masses, maximum_landing=maximum_landing)
+    definition = dataclasses.replace(mini_definition(), masses=masses)
     record = TouchdownRecord("any", simulated, mass=mass, recorded=contacts)
     rule = packaged_rule(rule) if isinstance(rule, str) else rule
     return apply_rule(rule, definition, record, histories)
