@@ -6,7 +6,7 @@ from solver.aircraft.definition import AircraftDefinition
 from solver.assessment import RuleFinding, RuleStatus, RuleVerdict, TouchdownRecord, Verdict
 from solver.landing.history import LandingHistory
 from solver.recorded import RecordedContact
-from solver.units import from_si
+from solver.units import Dimension, from_si
 from solver.verdict.judge import SEVERITY, is_overweight
 from solver.verdict.limit_curve import ROUNDING
 from solver.verdict.makers_rule import (
@@ -173,7 +173,11 @@ def _text(
     dimension, unit = DIMENSIONS[criterion.quantity], criterion.unit
 
     def number(si: float) -> str:
-        return f"{from_si(si, unit, dimension):.4g}"
+        value = from_si(si, unit, dimension)
+        if dimension is not Dimension.LOAD_FACTOR:
+            return f"{value:.4g}"
+        short = f"{value:.3f}".rstrip("0")
+        return f"{short}0" if short.endswith(".") else short
 
     text = f"contact {index + 1}, {criterion.name}: "
     if value is not None:

@@ -125,6 +125,16 @@ class TestBoeing:
         contacts = (contact(1.58), contact(1.72, nose_first=True), contact(1.82, nose_first=True))
         assert held("boeing-767", *contacts).status is CANNOT_TELL
 
+    def test_at_houston_the_rule_is_blind(self) -> None:
+        """United 767-300 N671UA, 29 July 2023: 1.4, 1.6 and 1.6 g, crown damage, nose first."""
+        first = contact(1.4)
+        others = (contact(1.6, nose_first=True), contact(1.6, nose_first=True))
+        assert held("boeing-767", first, *others).status is CANNOT_TELL
+
+    def test_at_exeter_it_is_not(self) -> None:
+        """737-400F G-JMCY, 19 January 2021: 3.8 g, written off (b737.org.uk/incident_g-jmcy)."""
+        assert held("boeing-737", contact(3.8, 8)).verdict is Verdict.INSPECT
+
     def test_rates_between_and_above(self) -> None:
         """The manuals say 'at least 8' and 'at least 16 samples per second'."""
         for rate, limit in ((8, 1.9), (10, 1.9), (15.9, 1.9), (16, 2.1), (64, 2.1)):
@@ -157,6 +167,10 @@ class TestAirbus:
         """2.74 g and 1,260 ft/min (Airbus Safety First): over both limits of the family."""
         verdict = held(self.RULE, contact(2.74, 8, sink_rate=1260 * 0.3048 / 60))
         assert [f.status for f in verdict.findings] == [EXCEEDED, EXCEEDED, PASSED]
+
+    def test_a321_at_fuerteventura(self) -> None:
+        """D-ASTP, 16 July 2016: 3.32 g (aerossurance.com, a320-flown-after-damage)."""
+        assert held(self.RULE, contact(3.32, 8)).verdict is Verdict.HARD
 
 
 class TestEmbraer:
