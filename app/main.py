@@ -22,6 +22,7 @@ from app.db import make_engine
 from app.fleet.endpoints import router as fleet
 from app.fleet.registry import AircraftRegistry
 from app.fleet.service import remember_models
+from app.flight_data.endpoints import router as flight_data
 from app.health import router as health
 from app.landings.endpoints import router as landings
 from app.observe import Metrics, RequestObserver, configure_logging
@@ -79,7 +80,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         ],
     )
     app.state.context = ServiceContext(settings, engine, registry, nudger, metrics)
-    for router in (landings, assessments, fleet, health):
+    for router in (landings, flight_data, assessments, fleet, health):
         app.include_router(router)
     errors.install(app)
     _describe_problems(app)

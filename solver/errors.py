@@ -23,3 +23,13 @@ class EquilibriumError(SolverError):
 
 class StrutBottomedError(SolverError):
     """A drop test uses up the strut's gas volume, where its equations end."""
+
+
+class FlightDataError(SolverError):
+    """A recorder window cannot be read; says where, what was found and what is allowed."""
+
+    def __init__(self, where: str, found: str, allowed: str) -> None:
+        super().__init__(f"{where}: {found} (allowed: {allowed})")
+        self.where = where
+        self.found = found
+        self.allowed = allowed

@@ -6,6 +6,7 @@ from app.cli.aircraft import aircraft
 from app.cli.assess import assess
 from app.cli.demo import demo, run
 from app.cli.drop_test import drop_test
+from app.cli.flight_data import flight_data
 from app.cli.key import key
 from app.cli.migrate import migrate
 from app.cli.serve import serve
@@ -26,6 +27,7 @@ app.add_typer(key, name="key", help="API keys.")
 app.command()(assess)
 app.command()(simulate)
 app.command(name="drop-test")(drop_test)
+app.command(name="flight-data")(flight_data)
 app.add_typer(aircraft, name="aircraft", help="Aircraft folders: build the example, check any.")
 app.command()(demo)
 

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any
 
@@ -36,8 +37,14 @@ def accept(
     *,
     lane: str,
     idempotency_key: str | None,
+    body_digest: str | None = None,
+    lacking: tuple[str, ...] = (),
 ) -> LandingAccepted:
-    """Store a landing and its assessment in one transaction, or find the one it repeats."""
+    """Store a landing and its assessment in one transaction, or find the one it repeats.
+
+    ``body_digest`` is the identity of what the record was made from, where that is not the record
+    itself; ``lacking`` is what keeps it from carrying a verdict besides its missing fields.
+    """
     aircraft = registry.get(record.aircraft.model_id)
     if aircraft is None:
         known = [a.definition.name for a in registry.all()]
@@ -54,8 +61,10 @@ def accept(
             ]
         )
     intake = take_in(record, aircraft.definition)
+    if lacking:
+        intake.record = replace(intake.record, missing=lacking)
     posted = record.model_dump(mode="json", by_alias=True, exclude_unset=True)
-    body_digest = _digest(posted)
+    body_digest = body_digest or _digest(posted)
     try:
         with writing(engine) as session:
             return _find_or_store(

@@ -11,21 +11,34 @@ Source: Eckart and Young, "The approximation of one matrix by another of lower r
 """
 
 from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from solver.arrays import Array, Single
-from solver.inertia_relief.reduced_stress import BLOCK, ReducedStress
+from solver.inertia_relief.reduced_stress import (
+    BLOCK,
+    COORDINATE_GROUP,
+    PATTERN_GROUP,
+    ReducedStress,
+    group_edges,
+)
 from solver.inertia_relief.stress_rows import StressRows, measure_squares
 
 #: Root mean square of what is dropped over a block's elements, relative to each one's own rows.
-DROPPED = 5e-4
+DROPPED = 3e-3
+#: The same beyond the leading patterns.
+BEYOND_LEADING = 1.2e-2
 #: Share of the motion in landings that the directions left out may carry.
 UNMOVED = 2e-5
 #: Power of the spread by which coordinates are divided; 0 keeps them, 1 makes them alike.
 SCALING = 0.3
 #: A coordinate counts as moved by at least this share of the most moved one.
 _LEAST_SPREAD = 3e-5
+#: Numbers of patterns are multiples of this, so that sums over them fill vector registers.
+_LANES = 16
 
 
 def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array]:
@@ -59,51 +72,93 @@ def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array
 
 
 def compressed(rows: StressRows, spread: Array) -> ReducedStress:
-    """Compress all rows, the coordinates weighed by ``spread`` (m,)."""
+    """Compress all rows, the coordinates weighed by ``spread`` (m,), least moved first."""
     scale = ((spread / spread.max()) ** SCALING).astype(np.float32)
     rows = StressRows(rows.shells * scale, rows.beams * scale, rows.points)
     spread = spread / scale
     no_points = np.zeros((len(rows.shells), 0, 5), dtype=np.float32)
-    patterns, shares, counts, dropped = [], [], [], []
-    squares: list[list[Array]] = [[], []]
-    for kind, (exact, points) in enumerate(((rows.shells, no_points), (rows.beams, rows.points))):
-        for start in range(0, len(exact), BLOCK):
+    patterns, shares, shapes, rests = [], [], [], []
+    parts: list[tuple[Array, Single]] = []
+    for kind, points in ((rows.shells, no_points), (rows.beams, rows.points)):
+        for start in range(0, len(kind), BLOCK):
             part = slice(start, start + BLOCK)
-            weighed = exact[part].astype(np.float64) * spread
-            kept = _leading(weighed, points[part])
-            share = weighed.reshape(-1, len(spread)) @ kept
-            rest = weighed - (share @ kept.T).reshape(weighed.shape)
-            pattern = kept.T / spread
-            patterns.append(pattern)
+            exact = kind[part].astype(np.float64)
+            kept, leading = _leading(exact * spread, points[part])
+            known = len(kept)
+            share = (exact[:, :, -known:] * spread[-known:]).reshape(-1, known) @ kept
+            pattern = kept.T / spread[-known:]
+            factored = np.zeros(exact.shape)
+            factored[:, :, -known:] = (share @ pattern).reshape(len(exact), 6, known)
+            # groups count from the most moved coordinate, the last one
+            rests.append(
+                np.hstack(
+                    [
+                        group_norms(field[:, :, ::-1], points[part], COORDINATE_GROUP)
+                        for field in (exact - factored, factored)
+                    ]
+                )
+            )
+            patterns.append(pattern.ravel())
             shares.append(share.ravel())
-            counts.append(len(pattern))
-            dropped.append(np.sqrt(measure_squares(rest, points[part]).max(axis=1)))
-            factored = (share @ pattern).reshape(weighed.shape)
-            squares[kind].append(measure_squares(factored, points[part]))
+            shapes.append((*pattern.shape, leading))
+            parts.append((share.reshape(len(exact), 6, -1), points[part]))
+    widest = max((len(group_edges(count, PATTERN_GROUP)) - 1 for count, *_ in shapes), default=0)
     return ReducedStress(
         scale=scale,
-        spread=spread,
         shell_rows=rows.shells,
         beam_rows=rows.beams,
         beam_points=rows.points,
-        pattern_counts=np.array(counts, dtype=np.int64),
-        patterns=_joined(patterns, (0, len(spread))),
+        pattern_shapes=np.array(shapes, dtype=np.int64).reshape(-1, 3),
+        patterns=_joined(patterns, (0,)),
         shares=_joined(shares, (0,)),
-        shell_squares=_joined(squares[0], (0, 2)),
-        beam_squares=_joined(squares[1], (0, 8)),
-        dropped=_joined(dropped, (0,)),
+        pattern_norms=_joined(
+            [_padded(group_norms(*part, PATTERN_GROUP), widest) for part in parts], (0, widest)
+        ),
+        rest_norms=_joined(rests, (0, 2 * (len(group_edges(len(spread))) - 1))),
     )
 
 
-def _leading(weighed: Array, points: Single) -> Array:
-    """Orthonormal directions (m, r) that carry a block's rows (n, 6, m), every element alike."""
+def group_norms(rows: NDArray[Any], points: Single, group: int) -> Array:
+    """Largest stress (n, groups) for unit norm of each group of the columns of rows (n, 6, k)."""
+    edges = group_edges(rows.shape[2], group)
+    norms: Array = np.stack(
+        [
+            np.sqrt(measure_squares(rows[:, :, first:last], points).max(axis=1))
+            for first, last in pairwise(edges)
+        ],
+        axis=1,
+    )
+    return norms
+
+
+def _leading(weighed: Array, points: Single) -> tuple[Array, int]:
+    """Orthonormal directions (h, r) that carry a block's rows (n, 6, m), every element alike.
+
+    They are combinations of the last h coordinates, leading ones first; the number is of those
+    that suffice for an estimate.  What the other coordinates carry and what is not along the
+    directions are together `DROPPED`.
+    """
     norms = np.sqrt(measure_squares(weighed, points).max(axis=1))
-    alike = weighed / np.where(norms > 0.0, norms, 1.0)[:, None, None]
-    flat = alike.reshape(-1, weighed.shape[2])
-    values, directions = np.linalg.eigh(flat.T @ flat)
-    left = np.cumsum(np.maximum(values, 0.0))
-    leading: Array = directions[:, np.searchsorted(left, DROPPED**2 * len(weighed)) :]
-    return leading
+    alike = (weighed / np.where(norms > 0.0, norms, 1.0)[:, None, None]).reshape(
+        -1, weighed.shape[2]
+    )
+    limit = DROPPED**2 * len(weighed) / 2
+    known = _lanes(np.square(alike).sum(axis=0), limit)
+    alike = alike[:, -known:]
+    values, directions = np.linalg.eigh(alike.T @ alike)
+    values = np.maximum(values, 0.0)
+    kept: Array = directions[:, ::-1][:, : _lanes(values, limit)]
+    return kept, _lanes(values, BEYOND_LEADING**2 * len(weighed))
+
+
+def _lanes(squares: Array, limit: float) -> int:
+    """How many of the last ``squares`` leave no more than ``limit`` out, in whole `_LANES`."""
+    count = len(squares) - int(np.searchsorted(np.cumsum(squares), limit))
+    return min(len(squares), -(-max(1, count) // _LANES) * _LANES)
+
+
+def _padded(norms: Array, width: int) -> Array:
+    return np.pad(norms, ((0, 0), (0, width - norms.shape[1])))
 
 
 def _joined(parts: list[Array], empty: tuple[int, ...]) -> Single:

@@ -6,15 +6,19 @@ the recursion below is exact whatever the step (Nigam and Jennings, "Calculation
 spectra from strong-motion earthquake records", 1969; here for any damping, over-critical too).
 """
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numba
 import numpy as np
 
-from solver.arrays import Array
+from solver.arrays import Array, IntArray, Single
 
 #: Below this, ``(exp(a) - exp(b)) / (a - b)`` is taken from its series: cancellation.
 _SERIES_LIMIT = 1e-3
+#: Samples whose loads are held at once.
+_SAMPLES_AT_ONCE = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,24 +81,112 @@ def step_coefficients(
     return StepCoefficients(displacement, velocity)
 
 
+@numba.njit(cache=True, fastmath={"contract", "reassoc"})
+def _square(values: Array) -> float:  # pragma: no cover - compiled
+    total = 0.0
+    for i in range(len(values)):
+        total += values[i] * values[i]
+    return total
+
+
 @numba.njit(cache=True, fastmath={"contract"})
-def _recur(
-    a: Array, b: Array, load: Array, q: Array, v: Array
-) -> None:  # pragma: no cover - compiled
-    modes, count = load.shape
-    # several modes advance together: one recursion alone would wait on its own latency
-    for start in range(0, modes, 8):
-        stop = min(start + 8, modes)
-        for n in range(1, count):
-            for i in range(start, stop):
-                q0, v0, p0, p1 = q[i, n - 1], v[i, n - 1], load[i, n - 1], load[i, n]
-                q[i, n] = a[i, 0] * q0 + a[i, 1] * v0 + a[i, 2] * p0 + a[i, 3] * p1
-                v[i, n] = b[i, 0] * q0 + b[i, 1] * v0 + b[i, 2] * p0 + b[i, 3] * p1
+def _advance(
+    a: Array,
+    b: Array,
+    load: Array,
+    q: Array,
+    v: Array,
+    p: Array,
+    total: Array | Single,
+    slots: IntArray,
+    moved: Array | Single,
+    moving: Array | Single,
+) -> float:  # pragma: no cover - compiled
+    """Advance all modes together over some samples; return the largest norm of displacement.
+
+    Parameters
+    ----------
+    a, b : (4, m) arrays
+        Transposed `StepCoefficients`.
+    load : (n, m) array
+        At each sample.
+    q, v, p : (m,) arrays
+        Displacement, velocity and load of the sample before, replaced by those of the last one.
+    total : (n, m) array
+        The displacement is added to it.
+    slots : (n,) array
+        Where in ``moved`` and ``moving`` to put each sample's motion; negative for nowhere.
+    """
+    largest = 0.0
+    for n in range(len(load)):
+        for i in range(len(q)):
+            q0, v0, p0, p1 = q[i], v[i], p[i], load[n, i]
+            new = a[0, i] * q0 + a[1, i] * v0 + a[2, i] * p0 + a[3, i] * p1
+            v[i] = b[0, i] * q0 + b[1, i] * v0 + b[2, i] * p0 + b[3, i] * p1
+            q[i], p[i] = new, p1
+            total[n, i] += new
+        largest = max(largest, _square(q))
+        if slots[n] >= 0:
+            for i in range(len(q)):
+                moved[slots[n], i] = q[i]
+                moving[slots[n], i] = v[i]
+    return math.sqrt(largest)
 
 
-def modal_response(
-    coefficients: StepCoefficients, load: Array, initial: Array
-) -> tuple[Array, Array]:
+#: Writes the modal loads (last - first, m) of the samples from ``first`` before ``last``.
+LoadOf = Callable[[int, int, Array], None]
+
+
+def add_modal_response(
+    coefficients: StepCoefficients, load: LoadOf, total: Array | Single, at: IntArray
+) -> tuple[Array | Single, Array | Single, float]:
+    """Add every mode's displacement, starting at rest under the first sample's load, to ``total``.
+
+    Loads are asked for some samples at a time: all of them at once would cost more in fresh memory
+    than the recursion itself.
+
+    Parameters
+    ----------
+    coefficients : StepCoefficients
+        For the sampling step of ``load``.
+    load : callable
+        See `LoadOf`.
+    total : (nt, m) array
+        Added to.
+    at : (k,) array
+        Samples whose motion is returned.
+
+    Returns
+    -------
+    (k, m) array, (k, m) array, float
+        Displacement and velocity [1/s] at those, and the largest norm of the displacement.
+    """
+    count, modes = total.shape
+    slots = np.full(count, -1)
+    slots[at] = np.arange(len(at))
+    moved, moving = np.empty((2, len(at), modes), dtype=total.dtype)
+    a = np.ascontiguousarray(coefficients.displacement.T)
+    b = np.ascontiguousarray(coefficients.velocity.T)
+    some = np.empty((_SAMPLES_AT_ONCE, modes))
+    load(0, 1, some[:1])
+    # at rest: the sample before had the same load, which the displacement followed
+    q, v, p = some[0].copy(), np.zeros(modes), some[0].copy()
+    total[0] += q
+    largest = float(np.linalg.norm(q))
+    if slots[0] >= 0:
+        moved[slots[0]], moving[slots[0]] = q, v
+    for first in range(1, count, _SAMPLES_AT_ONCE):
+        last = min(count, first + _SAMPLES_AT_ONCE)
+        part = slice(first, last)
+        load(first, last, some[: last - first])
+        norm = _advance(
+            a, b, some[: last - first], q, v, p, total[part], slots[part], moved, moving
+        )
+        largest = max(largest, norm)
+    return moved, moving, largest
+
+
+def modal_response(coefficients: StepCoefficients, load: Array) -> tuple[Array, Array]:
     """Displacement and velocity of every mode at every sample, starting at rest.
 
     Parameters
@@ -103,23 +195,17 @@ def modal_response(
         For the sampling step of ``load``.
     load : (m, nt) array
         ``p`` of each mode: the displacement it would cause if applied slowly.
-    initial : (m,) array
-        Displacement at the first sample; the velocity there is zero.
 
     Returns
     -------
     (m, nt) array, (m, nt) array
         Displacement, and velocity [1/s].
     """
-    displacement = np.empty(load.shape)
-    velocity = np.empty(load.shape)
-    displacement[:, 0] = initial
-    velocity[:, 0] = 0.0
-    _recur(
-        coefficients.displacement,
-        coefficients.velocity,
-        np.ascontiguousarray(load),
-        displacement,
-        velocity,
-    )
-    return displacement, velocity
+
+    def of(first: int, last: int, out: Array) -> None:
+        out[:] = load[:, first:last].T
+
+    displacement = np.zeros(load.T.shape)
+    every = np.arange(load.shape[1])
+    velocity = add_modal_response(coefficients, of, displacement, every)[1].astype(np.float64)
+    return displacement.T, velocity.T

@@ -1,9 +1,7 @@
 """Compiled inner loops of the peak search: bounds, and evaluation where they do not suffice.
 
-Between two knots the stress rows of an element are a straight line, plus the deviation along its
-leading directions, plus a small rest.  Intervals are halved while their bound reaches the best
-value so far; in their middle the first two parts are cheap to evaluate and the rest is bounded;
-only where both together reach the best value is the exact stress evaluated.
+Everything that loops calls is in this module: compiled code that is kept on disk does not notice
+what changes elsewhere.
 """
 
 import math
@@ -13,264 +11,335 @@ import numba
 import numpy as np
 
 from solver.arrays import Array, IntArray, Single
-from solver.inertia_relief.peak_plan import LEVELS, LONGEST
 
 #: Covers the rounding of single precision in comparing a bound with a value.
 _MARGIN = np.float32(1.0001)
 _ZERO = np.float32(0.0)
 _FAST = {"contract", "reassoc", "nsz"}
+# These neither make arrays nor keep them; to count references at every call would cost as much as
+# what they evaluate.
+_STRICT: dict[str, Any] = {"cache": True, "_nrt": False}
+_LEAN: dict[str, Any] = {**_STRICT, "fastmath": _FAST}
 
 
-@numba.njit(cache=True, fastmath=_FAST)
-def _squares(rows: Single, points: Single, out: Single) -> None:  # pragma: no cover
-    """Squares of von Mises stress by measure and column.
-
-    ``rows`` (6, k) gives ``out`` (p, k): both faces of a shell, or the eight points of a beam.
-    """
-    count = rows.shape[1]
-    if points.shape[0] == 0:
-        for face in range(2):
-            for k in range(count):
-                a, b, c = rows[3 * face, k], rows[3 * face + 1, k], rows[3 * face + 2, k]
-                out[face, k] = a * a + b * b + c * c
-        return
-    for i in range(points.shape[0]):
-        a, b, c, d, e = points[i, 0], points[i, 1], points[i, 2], points[i, 3], points[i, 4]
-        for k in range(count):
-            normal = a * rows[0, k] + b * rows[1, k] + c * rows[2, k] + d * rows[3, k]
-            normal += e * rows[4, k]
-            out[i, k] = normal * normal + rows[5, k] * rows[5, k]
-
-
-@numba.njit(cache=True, fastmath=_FAST)
-def _values(rows: Single, points: Single, out: Single) -> None:  # pragma: no cover - compiled
-    """Von Mises stress (k,) from the rows (6, k) of one element, larger face or highest point."""
+@numba.njit(**_LEAN)
+def _values(rows: Single, e: int, points: Single, out: Single) -> None:  # pragma: no cover
+    """Von Mises stress (k,) from the rows (n, 6, k) of element ``e``, larger face or point."""
     count = len(out)
-    if points.shape[0] == 0:
+    if points.shape[1] == 0:
         for k in range(count):
-            a, b, c = rows[0, k], rows[1, k], rows[2, k]
+            a, b, c = rows[e, 0, k], rows[e, 1, k], rows[e, 2, k]
             bottom = a * a + b * b + c * c
-            a, b, c = rows[3, k], rows[4, k], rows[5, k]
+            a, b, c = rows[e, 3, k], rows[e, 4, k], rows[e, 5, k]
             top = a * a + b * b + c * c
             out[k] = top if top > bottom else bottom
     else:
         for k in range(count):
             out[k] = _ZERO
-        for i in range(points.shape[0]):
-            p0, p1, p2, p3, p4 = (
-                points[i, 0],
-                points[i, 1],
-                points[i, 2],
-                points[i, 3],
-                points[i, 4],
-            )
+        for i in range(points.shape[1]):
+            p0, p1, p2 = points[e, i, 0], points[e, i, 1], points[e, i, 2]
+            p3, p4 = points[e, i, 3], points[e, i, 4]
             for k in range(count):
-                normal = p0 * rows[0, k] + p1 * rows[1, k] + p2 * rows[2, k] + p3 * rows[3, k]
-                normal += p4 * rows[4, k]
+                normal = p0 * rows[e, 0, k] + p1 * rows[e, 1, k] + p2 * rows[e, 2, k]
+                normal += p3 * rows[e, 3, k] + p4 * rows[e, 4, k]
                 square = normal * normal
                 out[k] = square if square > out[k] else out[k]
         for k in range(count):
-            out[k] += rows[5, k] * rows[5, k]
+            out[k] += rows[e, 5, k] * rows[e, 5, k]
     for k in range(count):
         out[k] = math.sqrt(out[k])
 
 
-@numba.njit(cache=True, fastmath=_FAST)
+@numba.njit(**_LEAN)
 def _bounds(
-    values: Single, deviation: Single, norm: float, between: Single, dropped: float, out: Single
+    values: Single, e: int, others: Single, rise: Single, beside: Single, out: Single
 ) -> None:  # pragma: no cover - compiled
-    """Cheap bounds (ni,) of the stress between knots, from norms of everything that deviates."""
+    """Bounds (ni,) of the stress of element ``e`` between knots, from estimates at the knots."""
     for i in range(len(out)):
-        larger = values[i] if values[i] > values[i + 1] else values[i + 1]
-        out[i] = (larger + norm * deviation[i] + dropped * between[i]) * _MARGIN
+        left, right = values[i] + others[e, i], values[i + 1] + others[e, i + 1]
+        out[i] = ((left if left > right else right) + rise[e, i] + beside[e, i]) * _MARGIN
 
 
-@numba.njit(cache=True, fastmath=_FAST)
+@numba.njit(**_LEAN)
+def _highest(values: Single) -> int:  # pragma: no cover - compiled
+    """Index of the largest value."""
+    largest: Any = values[0]
+    for i in range(len(values)):
+        largest = max(largest, values[i])
+    for i in range(len(values)):
+        if values[i] >= largest:
+            return i
+    return 0
+
+
+@numba.njit(**_LEAN)
+def _rest(norms: Single, e: int, amplitudes: Single, t: int) -> float:  # pragma: no cover
+    """How far the exact stress of element ``e`` may be from the compressed one at a sample."""
+    total: Any = _ZERO
+    for g in range(norms.shape[1]):
+        total += norms[e, g] * amplitudes[t, g]
+    result: float = total
+    return result
+
+
+@numba.njit(**_LEAN)
 def _measure(
-    s0: float, s1: float, s2: float, s3: float, s4: float, s5: float, points: Single
+    s0: float, s1: float, s2: float, s3: float, s4: float, s5: float, points: Single, e: int
 ) -> float:  # pragma: no cover - compiled
-    """Von Mises stress from the six rows of one element."""
-    if points.shape[0] == 0:
+    """Von Mises stress from the six rows of element ``e``."""
+    if points.shape[1] == 0:
         bottom = s0 * s0 + s1 * s1 + s2 * s2
         top = s3 * s3 + s4 * s4 + s5 * s5
         return math.sqrt(top if top > bottom else bottom)
     best: Any = _ZERO
-    for i in range(points.shape[0]):
-        normal = points[i, 0] * s0 + points[i, 1] * s1 + points[i, 2] * s2 + points[i, 3] * s3
-        normal += points[i, 4] * s4
+    for i in range(points.shape[1]):
+        normal = points[e, i, 0] * s0 + points[e, i, 1] * s1 + points[e, i, 2] * s2
+        normal += points[e, i, 3] * s3 + points[e, i, 4] * s4
         square = normal * normal
         best = square if square > best else best
     return math.sqrt(best + s5 * s5)
 
 
-@numba.njit(cache=True, fastmath=_FAST)
+@numba.njit(**_LEAN)
 def _stress(
-    rows: Single, coordinates: Single, base: Single, points: Single
-) -> float:  # pragma: no cover - compiled
-    """Von Mises stress of one element from ``base`` (6,) and rows (6, k) times coordinates."""
+    rows: Single, e: int, history: Single, one: int, two: int, points: Single
+) -> tuple[float, float]:  # pragma: no cover - compiled
+    """Von Mises stress of element ``e`` from rows (n, 6, k) and a history at two samples.
+
+    Two at a time, because rows are read once for both and each sum alone would wait on itself.
+    """
     s0 = s1 = s2 = s3 = s4 = s5 = _ZERO
-    for k in range(len(coordinates)):
-        z = coordinates[k]
-        s0 += rows[0, k] * z
-        s1 += rows[1, k] * z
-        s2 += rows[2, k] * z
-        s3 += rows[3, k] * z
-        s4 += rows[4, k] * z
-        s5 += rows[5, k] * z
-    return _measure(
-        base[0] + s0, base[1] + s1, base[2] + s2, base[3] + s3, base[4] + s4, base[5] + s5, points
+    t0 = t1 = t2 = t3 = t4 = t5 = _ZERO
+    for k in range(rows.shape[2]):
+        a, b = history[one, k], history[two, k]
+        s0 += rows[e, 0, k] * a
+        s1 += rows[e, 1, k] * a
+        s2 += rows[e, 2, k] * a
+        s3 += rows[e, 3, k] * a
+        s4 += rows[e, 4, k] * a
+        s5 += rows[e, 5, k] * a
+        t0 += rows[e, 0, k] * b
+        t1 += rows[e, 1, k] * b
+        t2 += rows[e, 2, k] * b
+        t3 += rows[e, 3, k] * b
+        t4 += rows[e, 4, k] * b
+        t5 += rows[e, 5, k] * b
+    return (
+        _measure(s0, s1, s2, s3, s4, s5, points, e),
+        _measure(t0, t1, t2, t3, t4, t5, points, e),
     )
 
 
-@numba.njit(cache=True, fastmath=_FAST)
-def _direction_norms(squares: Single, total: Single, out: Single) -> None:  # pragma: no cover
-    """Largest stress for unit norm along each leading direction (k,), then in all others.
+@numba.njit(**_STRICT)
+def _gather(
+    e: int,
+    begin: int,
+    end: int,
+    bounds: Single,
+    at_knots: Single,
+    others: Single,
+    beside: Single,
+    knots: IntArray,
+    shares: Single,
+    patterns: Single,
+    points: Single,
+    rest_norms: Single,
+    norms: Single,
+    certain: float,
+    likeliest: int,
+    samples: IntArray,
+    estimates: Single,
+    slack: Single,
+    candidates: IntArray,
+    reach: Single,
+    found: int,
+) -> tuple[int, float, int, int]:  # pragma: no cover - compiled
+    """Gather the samples in intervals ``begin`` to ``end`` that can hold more than is certain.
 
-    ``squares`` (p, k) are those of the leading directions, ``total`` (p,) of all coordinates.
-    The last of ``out`` (k + 2,) is the norm of the others.
+    Returns
+    -------
+    int, float, int, int
+        Number of candidates, what is certain now, the candidate it comes from, and the number of
+        estimates.
     """
-    count = squares.shape[1]
-    for k in range(count + 1):
-        out[k] = _ZERO
-    for i in range(len(total)):
-        left = total[i] * _MARGIN
-        for k in range(count):
-            left -= squares[i, k]
-        out[count] = left if left > out[count] else out[count]
-        for k in range(count):
-            out[k] = squares[i, k] if squares[i, k] > out[k] else out[k]
-    everything: Any = _ZERO
-    for k in range(count + 1):
-        everything += out[k]
-        out[k] = math.sqrt(out[k])
-    out[count + 1] = math.sqrt(everything)
-
-
-@numba.njit(cache=True, fastmath=_FAST)
-def _rise(norms: Single, largest: Single) -> float:  # pragma: no cover - compiled
-    """How far the stress can rise above the line between an interval's ends."""
-    total: Any = _ZERO
-    for k in range(len(norms) - 1):
-        total += norms[k] * largest[k]
-    rise: float = total
-    return rise
+    # first all samples, then all estimates: loops without surprises keep the processor busy
+    count, done = 0, -1
+    for i in range(begin, end):
+        if bounds[i] <= certain:
+            continue
+        start, stop = knots[i], knots[i + 1]
+        # the ends are known by the leading patterns, and may have been looked at from before
+        if start == done or (at_knots[i] + others[e, i] + beside[e, i]) * _MARGIN <= certain:
+            start += 1
+        done = stop
+        if (at_knots[i + 1] + others[e, i + 1] + beside[e, i]) * _MARGIN <= certain:
+            stop -= 1
+            done = -1
+        for t in range(start, stop + 1):
+            samples[count + t - start] = t
+            slack[count + t - start] = beside[e, i]
+        count += max(0, stop + 1 - start)
+    samples[count] = samples[max(0, count - 1)]
+    for c in range(0, count, 2):
+        pair = _stress(shares, e, patterns, samples[c], samples[c + 1], points)
+        estimates[c], estimates[c + 1] = pair[0], pair[1]
+    for c in range(count):
+        certain = max(certain, estimates[c] - slack[c])
+    for c in range(count):
+        if (estimates[c] + slack[c]) * _MARGIN >= certain:
+            t = samples[c]
+            rest: Any = _rest(rest_norms, e, norms, t)
+            if (estimates[c] + rest) * _MARGIN >= certain:
+                candidates[found], reach[found] = t, (estimates[c] + rest) * _MARGIN
+                if estimates[c] - rest >= certain:
+                    certain, likeliest = estimates[c] - rest, found
+                found += 1
+    return found, certain, likeliest, count
 
 
 @numba.njit(cache=True)
-def search_block(
+def gather_candidates(
+    points: Single,
+    shares: Single,
+    rest_norms: Single,
+    at_knots: Single,
+    others: Single,
+    rise: Single,
+    beside: Single,
+    norms: Single,
+    patterns: Single,
+    knots: IntArray,
+    starts: IntArray,
+    candidates: IntArray,
+    reach: Single,
+) -> int:  # pragma: no cover - compiled
+    """Gather the samples that can hold an element's peak; return how many were estimated.
+
+    Parameters
+    ----------
+    points : (n, 8, 5) array
+        Normal stress of a beam's points from its first five rows; (n, 0, 5) for shells.
+    shares : (n, 6, r) array
+        Compressed stress rows [Pa].
+    rest_norms : (n, 2 * groups) array
+        See `ReducedStress`.
+    at_knots : (n, 6, ni + 1) array
+        Stress rows by the leading patterns, at the knots.
+    others : (n, ni + 1) array
+        Stress by other patterns at the knots, at most.
+    rise, beside : (n, ni) arrays
+        How far compressed stress rises above the line between two knots, and how far the exact
+        one may be from it, at most.
+    norms, knots : arrays
+        See `SearchPlan`.
+    patterns : (n + 1, r) array
+        At every sample.
+    starts : (n + 1,) array
+        Filled with the place of each element's first candidate, which is the likeliest.
+    candidates, reach : (n * (samples + knots),) arrays
+        Filled with samples and what the stress can be there at most.
+    """
+    intervals = len(knots) - 1
+    bounds = np.empty(intervals, dtype=np.float32)
+    values = np.empty(intervals + 1, dtype=np.float32)
+    samples = np.empty(len(patterns) + len(knots) + 1, dtype=np.int64)
+    estimates = np.empty(len(samples), dtype=np.float32)
+    slack = np.empty(len(samples), dtype=np.float32)
+    found = estimated = 0
+    for e in range(len(shares)):
+        _values(at_knots, e, points, values)
+        _bounds(values, e, others, rise, beside, bounds)
+        top = _highest(values)
+        first, certain = found, np.float32(-1.0)
+        starts[e] = found
+        likeliest = found
+        # around the highest knot first, so that much is certain from the beginning
+        near, far = max(top - 1, 0), min(top + 1, intervals)
+        for turn in range(3):
+            begin = near if turn == 0 else (0 if turn == 1 else far)
+            end = far if turn == 0 else (near if turn == 1 else intervals)
+            found, certain, likeliest, looked = _gather(
+                e,
+                begin,
+                end,
+                bounds,
+                values,
+                others,
+                beside,
+                knots,
+                shares,
+                patterns,
+                points,
+                rest_norms,
+                norms,
+                certain,
+                likeliest,
+                samples,
+                estimates,
+                slack,
+                candidates,
+                reach,
+                found,
+            )
+            estimated += looked
+        if found == first:  # the motion is not a number, and so is the peak
+            candidates[first], reach[first] = knots[top], _ZERO
+            found += 1
+        candidates[first], candidates[likeliest] = candidates[likeliest], candidates[first]
+        reach[first], reach[likeliest] = reach[likeliest], reach[first]
+    starts[len(shares)] = found
+    return estimated
+
+
+@numba.njit(**_STRICT)
+def evaluate_candidates(
     operator: Single,
     points: Single,
-    total: Single,
-    dropped: Single,
-    beside: Single,
-    between: Single,
-    rows: Single,
-    leading: Single,
     coordinates: Single,
-    knots: IntArray,
-    knot_deviation: Single,
-    deviation: Single,
-    rest: Single,
-    largest: Single,
+    starts: IntArray,
+    candidates: IntArray,
+    reach: Single,
     stress: Array,
     sample: IntArray,
 ) -> int:  # pragma: no cover - compiled
-    """Find the peak of every element of a block; return how many samples were evaluated.
+    """Find the peak of every element among its candidates; return how many were evaluated.
 
     Parameters
     ----------
     operator : (n, 6, m) array
         Exact stress rows [Pa].
-    points : (n, 8, 5) array
-        Normal stress of a beam's points from its first five rows; (n, 0, 5) for shells.
-    total : (n, p) array
-        Sum over the coordinates of the squares of each measure, see `measure_squares`.
-    dropped : (n,) array
-        See `StressBlock`.
-    beside : (ni + 1,) array
-        Norm of coordinates / spread that compression leaves out, at the knots.
-    between : (ni,) array
-        The same at most between two knots.
-    rows : (n, 6, ni + 1) array
-        Compressed rows times the coordinates at the knots.
-    leading : (n, 6, k) array
-        Compressed rows times the leading directions.
-    coordinates, knots, knot_deviation, deviation, rest, largest : arrays
-        See `SearchPlan`.
+    points, starts, candidates, reach : arrays
+        See `gather_candidates`.
+    coordinates : (n + 1, m) array
+        At every sample.
     stress, sample : (n,) arrays
         Filled with peak and sample.
     """
-    count, measures = total.shape
-    knot_count, directions = len(knots), deviation.shape[1]
-    leading_squares = np.empty((measures, directions), dtype=np.float32)
-    bounds = np.empty(knot_count - 1, dtype=np.float32)
-    values = np.empty(knot_count, dtype=np.float32)
-    norms = np.empty(directions + 2, dtype=np.float32)
-    nothing = np.zeros(6, dtype=np.float32)
-    line = np.empty(6, dtype=np.float32)
-    # intervals still to be looked at: first sample, length, bounds of the stress at both ends
-    pending = np.empty((LEVELS + 2, 2), dtype=np.int64)
-    ends = np.empty((LEVELS + 2, 2), dtype=np.float32)
     evaluated = 0
-    for e in range(count):
-        _values(rows[e], points[e], values)
-        top = np.argmax(values)
-        _squares(leading[e], points[e], leading_squares)
-        _direction_norms(leading_squares, total[e], norms)
-        where = knots[top]
-        best: Any = _stress(operator[e], coordinates[where], nothing, points[e])
+    for e in range(len(operator)):
+        # the likeliest alone, then two at a time what can still be higher
+        where = candidates[starts[e]]
+        best: Any = _stress(operator, e, coordinates, where, where, points)[0]
         evaluated += 1
-        _bounds(values, knot_deviation, norms[-1], between, dropped[e], bounds)
-        # outwards from the highest knot, so that the best value is high from the beginning
-        for turn in range(2 * knot_count):
-            i = top - 1 - turn // 2 if turn % 2 == 0 else top + turn // 2
-            if i < 0 or i >= knot_count - 1 or bounds[i] <= best:
+        waiting = -1
+        for c in range(starts[e] + 1, starts[e + 1]):
+            if reach[c] <= best:
                 continue
-            start, whole = knots[i], knots[i + 1] - knots[i]
-            margin = dropped[e] * between[i]
-            depth = 1
-            pending[0, 0], pending[0, 1] = start, whole
-            ends[0, 0], ends[0, 1] = values[i], values[i + 1]
-            outer = i if i < top else i + 1  # the knot at the other end has had its turn
-            if (values[outer] + dropped[e] * beside[outer]) * _MARGIN > best:
-                value: Any = _stress(operator[e], coordinates[knots[outer]], nothing, points[e])
-                evaluated += 1
-                if value > best:
-                    best, where = value, knots[outer]
-            while depth > 0:
-                depth -= 1
-                begin, width = pending[depth, 0], pending[depth, 1]
-                left, right = ends[depth, 0], ends[depth, 1]
-                level, longest = 0, LONGEST
-                while longest > width:
-                    level, longest = level + 1, longest >> 1
-                reach = margin + (left if left > right else right)
-                among = largest[level, begin // width]
-                # the product of the norms bounds the sum of the products, at less cost
-                if (reach + norms[-1] * among[-1]) * _MARGIN <= best:
-                    continue
-                if (reach + _rise(norms, among)) * _MARGIN <= best:
-                    continue
-                middle = begin + (width >> 1)
-                share = np.float32((middle - start) / whole)
-                for row in range(6):
-                    at = rows[e, row, i]
-                    line[row] = at + share * (rows[e, row, i + 1] - at)
-                value = _stress(leading[e], deviation[middle], line, points[e])
-                value = np.float32(value + norms[directions] * rest[middle])
-                if (value + margin) * _MARGIN > best:
-                    exact: Any = _stress(operator[e], coordinates[middle], nothing, points[e])
-                    evaluated += 1
-                    if exact > best:
-                        best, where = exact, middle
-                        value = exact if exact < value else value
-                if width > 2:
-                    half = width >> 1
-                    pending[depth, 0], pending[depth, 1] = begin, half
-                    ends[depth, 0], ends[depth, 1] = left, value
-                    pending[depth + 1, 0], pending[depth + 1, 1] = middle, half
-                    ends[depth + 1, 0], ends[depth + 1, 1] = value, right
-                    depth += 2
+            if waiting < 0:
+                waiting = candidates[c]
+                continue
+            pair = _stress(operator, e, coordinates, waiting, candidates[c], points)
+            evaluated += 2
+            if pair[0] > best:
+                best, where = pair[0], waiting
+            if pair[1] > best:
+                best, where = pair[1], candidates[c]
+            waiting = -1
+        if waiting >= 0:
+            value: Any = _stress(operator, e, coordinates, waiting, waiting, points)[0]
+            evaluated += 1
+            if value > best:
+                best, where = value, waiting
         stress[e] = best
         sample[e] = where
     return evaluated

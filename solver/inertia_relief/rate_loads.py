@@ -59,15 +59,18 @@ class RateLoads:
         self._negligible = negligible / 2  # half before and half after the motion is known
         self._weights = np.abs(coefficients).max(axis=1)[:, None] * loading.rate_norms
 
-    def of(self, displacement: Array, velocity: Array) -> Array:
+    def of(self, displacement: Array | Single, velocity: Array | Single) -> Array:
         """Modal pseudo loads (m, nt) of the modal motion (m, nt), [1/s] for the velocity."""
-        moved, moving = displacement.astype(np.float32), velocity.astype(np.float32)
+        moved, moving = (
+            displacement.astype(np.float32, copy=False),
+            velocity.astype(np.float32, copy=False),
+        )
         # between the samples looked at first the coordinates may move somewhat farther
         farthest = _CAUTION * np.abs(self._modes @ moved[:, ::_FIRST_LOOK]).max(axis=1)
         fastest = _CAUTION * np.abs(self._modes @ moving[:, ::_FIRST_LOOK]).max(axis=1)
         rows = np.unique(self._significant(farthest, fastest)[1])
         if len(rows) == 0:
-            return np.zeros_like(displacement)
+            return np.zeros(displacement.shape)
         moved, moving = self._modes[rows] @ moved, self._modes[rows] @ moving
         farthest[:], fastest[:] = 0.0, 0.0
         farthest[rows], fastest[rows] = np.abs(moved).max(axis=1), np.abs(moving).max(axis=1)
@@ -75,8 +78,9 @@ class RateLoads:
         products = np.empty((len(terms), displacement.shape[1]), dtype=np.float32)
         at = np.searchsorted(rows, coordinates)
         _products(self._coefficients, moved, moving, terms, at, products)
-        force: Single = self._columns(terms, coordinates).T @ products
-        loads: Single = self._modes.T @ force
+        columns = self._columns(terms, coordinates)
+        # in whichever order costs less: few terms go through the modes before they meet time
+        loads: Single = np.linalg.multi_dot([self._modes.T, columns.T, products])
         return -loads.astype(np.float64)
 
     def _significant(self, farthest: Single, fastest: Single) -> tuple[IntArray, IntArray]:

@@ -20,7 +20,7 @@ from solver.inertia_relief.damping import RayleighDamping
 from solver.inertia_relief.reduced_stress import ReducedStress, no_stress
 
 #: Changes whenever the stored arrays change their meaning.
-FORMAT = 6
+FORMAT = 7
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,9 +1,10 @@
 """Stress of every element in reduced coordinates: exact rows, and the same compressed by blocks.
 
 Elements next to each other follow the same motion, so the rows of a block of elements factor into
-a few patterns, combinations of the coordinates, and the share that each row takes of them.  What
-the factors leave out is bounded for every element: they are for choosing what to look at, and what
-is reported comes from the exact rows.
+a few patterns, combinations of the coordinates that move most, and the share that each row takes
+of them.  What the factors leave out is bounded for every element, by groups of coordinates that
+move alike: the factors are for choosing what to look at, and what is reported comes from the exact
+rows.
 """
 
 from collections.abc import Iterator
@@ -11,43 +12,48 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.arrays import Array, IntArray, Single
+from solver.arrays import IntArray, Single
 
 #: Elements of a block.
-BLOCK = 128
+BLOCK = 256
+#: Members of a group of coordinates and of a group of patterns at most.
+COORDINATE_GROUP, PATTERN_GROUP = 32, 16
 
 
 @dataclass(frozen=True, slots=True)
 class StressBlock:
-    """Some elements of one kind; n elements, m coordinates, r patterns, p measures."""
+    """Some elements of one kind; n elements, m coordinates, r patterns."""
 
     rows: Single  #: (n, 6, m) see `StressRows`
     points: Single  #: (n, 8, 5) of beams, (n, 0, 5) of shells
-    patterns: slice  #: rows of `ReducedStress.patterns`
+    patterns: Single  #: (r, h) of the last h coordinates
+    leading: int  #: patterns that suffice for an estimate
     shares: Single  #: (6 n, r) of the patterns
-    squares: Single  #: (n, p) see `measure_squares`, of the compressed rows
-    dropped: Single  #: (n,) largest stress left out for unit norm of coordinates / spread
+    pattern_norms: Single  #: (n, groups of the most patterns) see `ReducedStress`
+    rest_norms: Single  #: (n, 2 * groups) see `ReducedStress`
 
 
 @dataclass(frozen=True, slots=True)
 class ReducedStress:
     """All blocks, shells first, in arrays that can be mapped from files.
 
-    Everything here is for coordinates divided by ``scale``: norms of coordinates that move by
-    amounts less unlike bound stress more narrowly.
+    Everything here is for coordinates divided by ``scale``: differences of coordinates that move
+    by amounts less unlike tell better where the stress is curved in time.  Norms are the largest
+    stress, of both faces or of all points, that unit norm of a group of amplitudes can cause;
+    `group_edges` says which groups.
     """
 
     scale: Single  #: (m,)
-    spread: Array  #: (m,) how far landings move each of coordinates / scale
     shell_rows: Single  #: (n_shells, 6, m) rows whose squares sum to von Mises, two faces
     beam_rows: Single  #: (n_beams, 6, m) five rows of normal stress, sqrt(3) times the shear
     beam_points: Single  #: (n_beams, 8, 5) normal stress of the points from the five rows
-    pattern_counts: IntArray  #: (blocks,)
-    patterns: Single  #: (sum of the counts, m) of the coordinates
+    pattern_shapes: IntArray  #: (blocks, 3) patterns, coordinates (the last ones), leading patterns
+    patterns: Single  #: block by block
     shares: Single  #: block by block
-    shell_squares: Single  #: (n_shells, 2) see `StressBlock`
-    beam_squares: Single  #: (n_beams, 8) see `StressBlock`
-    dropped: Single  #: (n_shells + n_beams,) see `StressBlock`
+    pattern_norms: Single  #: (ne, groups of the most patterns) stress from groups of patterns
+    #: (ne, 2 * groups of m) stress from groups of coordinates: what the factors leave out, then
+    #: what they hold
+    rest_norms: Single
 
     @property
     def element_count(self) -> int:
@@ -56,28 +62,46 @@ class ReducedStress:
 
     def blocks(self) -> Iterator[StressBlock]:
         """Yield blocks in the order of the elements."""
+        # plain views once: slices of mapped files cost more than what is done with small ones
+        every_share, every_pattern = np.asarray(self.shares), np.asarray(self.patterns)
+        pattern_norms, rest_norms = np.asarray(self.pattern_norms), np.asarray(self.rest_norms)
         no_points = np.zeros((len(self.shell_rows), 0, 5), dtype=np.float32)
-        counts = iter(self.pattern_counts.tolist())
+        shapes = iter(self.pattern_shapes.tolist())
         element = pattern = share = 0
-        for rows, points, squares in (
-            (self.shell_rows, no_points, self.shell_squares),
-            (self.beam_rows, self.beam_points, self.beam_squares),
+        for rows, points in (
+            (np.asarray(self.shell_rows), no_points),
+            (np.asarray(self.beam_rows), np.asarray(self.beam_points)),
         ):
             for start in range(0, len(rows), BLOCK):
                 part = slice(start, start + BLOCK)
-                exact = np.asarray(rows[part])
-                height, count = 6 * len(exact), next(counts)
-                shares = self.shares[share : share + height * count]
+                exact = rows[part]
+                height, (count, known, leading) = 6 * len(exact), next(shapes)
+                elements = slice(element, element + len(exact))
                 yield StressBlock(
                     rows=exact,
-                    points=np.asarray(points[part]),
-                    patterns=slice(pattern, pattern + count),
-                    shares=np.asarray(shares).reshape(height, count),
-                    squares=np.asarray(squares[part]),
-                    dropped=np.asarray(self.dropped[element : element + len(exact)]),
+                    points=points[part],
+                    patterns=every_pattern[pattern : pattern + count * known].reshape(count, known),
+                    leading=leading,
+                    shares=every_share[share : share + height * count].reshape(height, count),
+                    pattern_norms=pattern_norms[elements],
+                    rest_norms=rest_norms[elements],
                 )
-                element, pattern = element + len(exact), pattern + count
+                element, pattern = element + len(exact), pattern + count * known
                 share += height * count
+
+
+def group_edges(count: int, widest: int = COORDINATE_GROUP) -> IntArray:
+    """First members of groups of ``count`` amplitudes, the most important first: 1, 1, 2, 4...
+
+    Returns
+    -------
+    (groups + 1,) array
+        From 0 to ``count``; no group has more than ``widest`` members.
+    """
+    edges = [0]
+    while edges[-1] < count:
+        edges.append(min(count, edges[-1] + min(max(1, edges[-1]), widest)))
+    return np.array(edges, dtype=np.int64)
 
 
 def no_stress(size: int) -> ReducedStress:
@@ -85,14 +109,12 @@ def no_stress(size: int) -> ReducedStress:
     rows = np.zeros((0, 6, size), dtype=np.float32)
     return ReducedStress(
         scale=np.ones(size, dtype=np.float32),
-        spread=np.ones(size),
         shell_rows=rows,
         beam_rows=rows,
         beam_points=np.zeros((0, 8, 5), dtype=np.float32),
-        pattern_counts=np.zeros(0, dtype=np.int64),
-        patterns=np.zeros((0, size), dtype=np.float32),
+        pattern_shapes=np.zeros((0, 3), dtype=np.int64),
+        patterns=np.zeros(0, dtype=np.float32),
         shares=np.zeros(0, dtype=np.float32),
-        shell_squares=np.zeros((0, 2), dtype=np.float32),
-        beam_squares=np.zeros((0, 8), dtype=np.float32),
-        dropped=np.zeros(0, dtype=np.float32),
+        pattern_norms=np.zeros((0, 0), dtype=np.float32),
+        rest_norms=np.zeros((0, 2 * (len(group_edges(size)) - 1)), dtype=np.float32),
     )

@@ -13,7 +13,7 @@ from solver.arrays import Array, IntArray, Single
 from solver.errors import ModelError
 from solver.inertia_relief.loading import ReducedLoading
 from solver.inertia_relief.loads import LandingLoads, equilibrium_residual
-from solver.inertia_relief.modal_recursion import StepCoefficients, modal_response
+from solver.inertia_relief.modal_recursion import LoadOf, StepCoefficients, add_modal_response
 from solver.inertia_relief.rate_loads import RateLoads
 
 #: Largest change by the last sweep, relative to the largest displacement, strain-energy norm.
@@ -62,59 +62,66 @@ def landing_response(
         loading.mass * np.linalg.norm(motion.gravity, axis=1),
         loading.gyration_radius,
     )
-    shapes = loading.modes_with_rigid.T @ np.hstack([model.applied, loading.inertia])
-    load = shapes @ np.hstack([applied, inertial]).T
+    shapes = np.hstack([model.applied, loading.inertia]).T @ loading.modes_with_rigid
+    amplitudes = np.hstack([applied, inertial])
+
+    def load(first: int, last: int, out: Array) -> None:
+        np.matmul(amplitudes[first:last], shapes, out=out)
+
     step = loading.coefficients(float(loads.time[1] - loads.time[0]))
-    response, sweeps, change = swept_response(
-        loading, step, load, motion.rate_coefficients().T, tolerance
+    response = np.zeros((len(loads.time), model.size), dtype=np.float32)
+    sweeps, change = add_swept_response(
+        loading, step, load, motion.rate_coefficients().T, tolerance, response
     )
-    modes = loading.modes.astype(np.float32)
-    coordinates: Single = (response.T.astype(np.float32) @ modes.T).T
+    coordinates: Single = (response @ loading.modes.astype(np.float32).T).T
     return ReducedResponse(loads.time, coordinates, sweeps, change, residual)
 
 
-def swept_response(
+def add_swept_response(
     loading: ReducedLoading,
     step: StepCoefficients,
-    load: Array,
+    load: LoadOf,
     rate_coefficients: Array,
     tolerance: float,
-) -> tuple[Array, int, float]:
-    """Modal response (m, nt) to modal loads with all W terms, the sweeps and the last change."""
-    displacement, velocity = modal_response(step, load, load[:, 0])
-    total = displacement
+    total: Single,
+) -> tuple[int, float]:
+    """Add the modal response to modal loads with all W terms; give the sweeps and the last change.
+
+    Parameters
+    ----------
+    rate_coefficients : (12, nt) array
+        See `RigidMotion.rate_coefficients`.
+    total : (nt, m) array
+        Added to.
+    """
+    last = len(total) - 1
+    at = np.append(np.arange(0, last, RATE_STRIDE), last)
+    displacement, velocity, size = add_modal_response(step, load, total, at)
     if not np.any(rate_coefficients):
-        return total, 0, 0.0
-    size, change = _largest(total), 1.0
-    at = np.arange(0, load.shape[1], RATE_STRIDE)
-    if at[-1] != load.shape[1] - 1:
-        at = np.append(at, load.shape[1] - 1)
+        return 0, 0.0
     loads = RateLoads(loading, rate_coefficients[:, at], NEGLIGIBLE * tolerance * size)
+    change = 1.0
     for sweep in range(1, MAXIMUM_SWEEPS + 1):
-        some = loads.of(displacement[:, at], velocity[:, at])
+        some = loads.of(displacement.T, velocity.T)
         if not np.any(some):
-            return total, sweep, 0.0
-        pseudo = _between(some, at)
-        displacement, velocity = modal_response(step, pseudo, pseudo[:, 0])
-        total += displacement
-        before, change = change, _largest(displacement) / size
+            return sweep, 0.0
+        displacement, velocity, largest = add_modal_response(step, _between(some.T, at), total, at)
+        before, change = change, largest / size
         # the next sweep would change by another such factor
         if change <= tolerance or CAUTION * change**2 <= tolerance * before:
-            return total, sweep, change
+            return sweep, change
         if not np.isfinite(change):
             break
     raise ModelError(f"the W terms did not converge in {MAXIMUM_SWEEPS} sweeps")
 
 
-def _largest(field: Array) -> float:
-    """Largest strain-energy norm over time of (m, nt) modal coordinates."""
-    return float(np.sqrt(np.einsum("ij,ij->j", field, field).max()))
+def _between(some: Array, at: IntArray) -> LoadOf:
+    """Give loads straight between samples ``at``, no more than two apart; (k, m) are known."""
+    samples = np.arange(at[-1] + 1)
+    left, right = np.searchsorted(at, samples, "right") - 1, np.searchsorted(at, samples)
 
+    def load(first: int, last: int, out: Array) -> None:
+        np.add(some[left[first:last]], some[right[first:last]], out=out)
+        out /= 2
 
-def _between(some: Array, at: IntArray) -> Array:
-    """History (m, nt) that is straight between samples ``at``, no more than two apart."""
-    every = np.empty((len(some), at[-1] + 1))
-    every[:, at] = some
-    between = np.flatnonzero(np.diff(at) > 1)
-    every[:, at[between] + 1] = (some[:, between] + some[:, between + 1]) / 2
-    return every
+    return load

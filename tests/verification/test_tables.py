@@ -10,8 +10,15 @@ from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import landing_response
 from verification.run import Run
-from verification.tables.agreement import Followed, field_agreements, maxima, relative
-from verification.tables.analyses import full_order, nonlinear, reduced, reduced_stress
+from verification.tables.agreement import (
+    Crest,
+    Followed,
+    crest,
+    field_agreements,
+    maxima,
+    relative,
+)
+from verification.tables.analyses import Analysis, full_order, nonlinear, reduced, reduced_stress
 from verification.tables.figures import wheel_height
 from verification.tables.landings import INSTANTS, PAPER, Landed, landed
 from verification.tables.largest import TOLERANCE
@@ -91,6 +98,17 @@ def test_analyses_agree_on_a_soft_landing(airframe, followed):
     assert followed.nonlinear.drift.max() < np.radians(0.5)
     for found in field_agreements(airframe, followed):
         assert found.correlation > 0.999
+
+
+def test_crest_of_a_swing_is_found_uphill_and_only_of_its_element():
+    time = np.linspace(0.0, 1.0, 101)
+    wave = 100.0 + 10.0 * np.sin(2 * np.pi * time)  # crest at 0.25
+    element = np.where(time < 0.6, 4, 9)
+    swing = Analysis(np.zeros(10), wave, element, np.zeros((1, 10)), 0.0)
+    for sample in (5, 25, 40):
+        assert crest(swing, time, sample) == Crest(pytest.approx(0.25), pytest.approx(110.0))
+    # uphill of 0.62 the other element takes over at once
+    assert crest(swing, time, 62).time == pytest.approx(0.6)
 
 
 def test_critical_factor_is_inverse_to_the_stress(airframe, followed):

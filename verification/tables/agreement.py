@@ -46,6 +46,30 @@ class Followed:
 
 
 @dataclass(frozen=True, slots=True)
+class Crest:
+    """Largest stress of the swing on whose flank an instant lies."""
+
+    time: float  #: [s]
+    stress: float  #: [Pa]
+
+
+def crest(analysis: Analysis, time: Array, sample: int) -> Crest:
+    """Follow the most stressed element uphill from a sample, as long as it stays that."""
+    largest, element = analysis.largest, analysis.element
+    for step in (-1, 1):
+        at = sample
+        while (
+            0 <= at + step < len(largest)
+            and element[at + step] == element[sample]
+            and largest[at + step] >= largest[at]
+        ):
+            at += step
+        if at != sample:
+            return Crest(float(time[at]), float(largest[at]))
+    return Crest(float(time[sample]), float(largest[sample]))
+
+
+@dataclass(frozen=True, slots=True)
 class Maximum:
     """Most stressed element at one instant, by each analysis."""
 
@@ -58,6 +82,7 @@ class Maximum:
     #: At which the full order's stresses buckle the panel around that element.
     critical_factor: float
     panel: float  #: its stress in nonlinear statics of the panel, driven by the full order [Pa]
+    crests: tuple[Crest, Crest]  #: of the nonlinear analysis and the full order
 
     @property
     def is_same(self) -> bool:
@@ -89,6 +114,10 @@ def maxima(airframe: Airframe, followed: Followed) -> list[Maximum]:
                 at_same=float(fields[1][row, elements[0]]),
                 critical_factor=panels.factor(elements[0]),
                 panel=panel_stress(airframe, followed.full.displacements[row], elements[0]),
+                crests=(
+                    crest(followed.nonlinear.stress, followed.landed.loads.time, sample),
+                    crest(followed.full.stress, followed.landed.loads.time, sample),
+                ),
             )
         )
     return found

@@ -13,7 +13,7 @@ TOLERANCE = 0.02
 #: Of the largest stress, reduced against full order.
 REDUCED_TOLERANCE = 0.01
 #: Of the stress in a panel that is nonlinear by itself, against the nonlinear analysis.
-PANEL_TOLERANCE = 0.1
+PANEL_TOLERANCE = 0.05
 #: What Lee et al. report in Table 2.
 PAPER_DIFFERENCES = (0.0373, 0.0270, 0.0214, 0.0312)
 
@@ -101,7 +101,20 @@ def _maximum_comparisons(one: Followed, largest: list[Maximum]) -> list[Comparis
 
 
 def _nonlinear_comparison(title: str, maximum: Maximum) -> Comparison:
-    """Compare the sizes; where another element is critical, those with a nonlinear panel."""
+    """Compare the sizes, on a steep flank those of the swing, in a bowed panel its own statics."""
+    if _is_flank(maximum):
+        reference, found = maximum.crests
+        return Comparison(
+            f"{title}: full-order EIR, same element, crest of its swing",
+            found.stress / 1e6,
+            reference.stress / 1e6,
+            TOLERANCE,
+            "MPa",
+            "nonlinear analysis of the same landing",
+            "the instant lies on the flank of a swing, where a small lag decides: the crests "
+            f"are {1e3 * abs(found.time - reference.time):.1f} ms apart, as axial load changes "
+            "the frequency of what bends under it, which eq (15) does not know",
+        )
     if not _is_apart(maximum):
         element = "same element" if maximum.is_same else "another element"
         return Comparison(
@@ -126,6 +139,20 @@ def _nonlinear_comparison(title: str, maximum: Maximum) -> Comparison:
     )
 
 
+def _is_flank(maximum: Maximum) -> bool:
+    return maximum.is_same and abs(maximum.difference) > TOLERANCE
+
+
+def _of_flank(one: Followed, maximum: Maximum) -> str:
+    reference, found = maximum.crests
+    return (
+        f"{one.title}, {maximum.time:.3f} s lies on the flank of a swing of that element, whose "
+        f"crest is {reference.stress / 1e6:.1f} MPa at {reference.time:.3f} s in the nonlinear "
+        f"analysis and {found.stress / 1e6:.1f} MPa at {found.time:.3f} s in EIR "
+        f"({100 * (found.stress / reference.stress - 1):+.1f} %)."
+    )
+
+
 def _is_apart(maximum: Maximum) -> bool:
     return not maximum.is_same and abs(maximum.difference) > TOLERANCE
 
@@ -138,6 +165,7 @@ def _explanation(pairs: list[tuple[Followed, list[Maximum]]]) -> str:
         + (f", where the sizes differ by {min(same):.2f} to {max(same):.2f} %." if same else ".")
     ]
     for one, largest in pairs:
+        words += [_of_flank(one, maximum) for maximum in largest if _is_flank(maximum)]
         words += [_of_other_element(one, maximum) for maximum in largest if not maximum.is_same]
     apart = [maximum for maximum in every if _is_apart(maximum)]
     if apart:
@@ -146,9 +174,9 @@ def _explanation(pairs: list[tuple[Followed, list[Maximum]]]) -> str:
         )
         words.append(
             f"At {len(apart)} instants another element is critical and the sizes differ by more "
-            f"than {TOLERANCE:.0%}. The critical factors there are low: stiffened skin in "
-            "compression comes near its buckling load or passes it, the panel bows and "
-            "its stringers bend with it, which no linear analysis shows. Nonlinear statics of the "
+            f"than {TOLERANCE:.0%}. Stiffened skin there is in compression at a share of its "
+            "buckling load that the critical factor says; the panel bows and its stringers "
+            "bend with it, which no linear analysis shows. Nonlinear statics of the "
             "panel alone, driven by full-order EIR, has the linear stress at small loads and at "
             f"the whole load comes within {PANEL_TOLERANCE:.0%} of the nonlinear analysis at "
             f"{explained} of these instants. What it leaves out is that the panel vibrates, and "

@@ -103,3 +103,20 @@ def test_history_at_rest_has_no_peaks():
     model = stress_model(2, 2, 3, 0)
     peaks = find_peaks(model, response_of(np.zeros((3, 20))))
     assert np.all(peaks.stress == 0.0)
+
+
+def test_motion_that_is_not_a_number_has_no_peak():
+    model = stress_model(2, 2, 3, 0)
+    coordinates = np.ones((3, 20))
+    coordinates[:, 7] = np.nan
+    assert np.all(np.isnan(find_peaks(model, response_of(np.full((3, 20), np.nan))).stress))
+    find_peaks(model, response_of(coordinates))  # answers, whatever it is
+
+
+def test_long_and_calm_histories_need_no_more_evaluations_than_short_ones():
+    model = stress_model(20, 20, 12, 3)
+    short = vibration(12, 300, 3, 0.01)
+    long = np.hstack([short, np.repeat(short[:, -1:], 1700, axis=1)])
+    few = find_peaks(model, response_of(short)).evaluated * 300
+    many = find_peaks(model, response_of(long)).evaluated * 2000
+    assert many <= few + 1

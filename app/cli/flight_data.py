@@ -1,0 +1,219 @@
+"""`hardlanding flight-data`: what is understood of a recorder window, without a server."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from app.cli.input_file import refuse
+from app.cli.progress import progress_bars
+from app.config import get_settings
+from solver.errors import FlightDataError, RecordError, SolverError
+from solver.flight_data.frame import RecorderFrame
+from solver.flight_data.frame_file import packaged_frame, read_frame
+from solver.flight_data.geometry import Geometry, aircraft_geometry, point_geometry
+from solver.flight_data.parameter import Parameter
+from solver.flight_data.reading import read_window
+from solver.flight_data.reconstruction import FoundContact, Reconstruction, reconstruct
+from solver.flight_data.touchdown import Estimate
+from solver.flight_data.window import Window
+
+#: Unit of each component of a state, as its key says it.
+UNITS = {
+    "sink_rate": "m_s",
+    "pitch": "rad",
+    "roll": "rad",
+    "drift": "rad",
+    "ground_speed": "m_s",
+    "pitch_rate": "rad_s",
+    "roll_rate": "rad_s",
+    "yaw_rate": "rad_s",
+    "lift_fraction": "1",
+}
+
+
+def flight_data(
+    file: Annotated[Path, typer.Argument(help="Recorder window: CSV, or Parquet with its extra.")],
+    as_json: Annotated[bool, typer.Option("--json", help="Only JSON on standard output.")] = False,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw the window and what was found (SVG, PNG or PDF).")
+    ] = None,
+    frame: Annotated[
+        str | None, typer.Option(help="Recorder frame: a packaged name, or a TOML file.")
+    ] = None,
+    aircraft: Annotated[
+        str | None, typer.Option(help="Aircraft folder's name, for heights and gears.")
+    ] = None,
+) -> None:
+    """Show what a recorder window holds: channels, contacts, states, or why it cannot tell."""
+    try:
+        window = read_window(file, _frame(frame))
+        geometry = _geometry(aircraft, window)
+    except FlightDataError as error:
+        refuse(f"{file}: {error}", error)
+    except (SolverError, OSError) as error:
+        refuse(str(error), error)
+    found = reconstruct(window, geometry)
+    if plot is not None:
+        _draw(plot, window, found)
+    if as_json:
+        typer.echo(json.dumps(document(window, found, aircraft), indent=1))
+    else:
+        show(window, found, aircraft, Console())
+
+
+def _frame(name: str | None) -> RecorderFrame | None:
+    if name is None:
+        return None
+    path = Path(name)
+    return read_frame(path) if path.suffix == ".toml" else packaged_frame(name)
+
+
+def _geometry(aircraft: str | None, window: Window) -> Geometry:
+    if aircraft is None:
+        return point_geometry()
+    from solver.aircraft.airframe import load_airframe
+
+    folder = get_settings().aircraft_folder / aircraft
+    if not folder.is_dir():
+        raise RecordError(f"no aircraft {aircraft!r} in {folder.parent}")
+    with progress_bars() as progress:
+        airframe = load_airframe(folder, progress)
+    recorded = window.first(Parameter.GROSS_MASS)
+    mass = None if recorded is None else float(np.median(recorded.value))
+    return aircraft_geometry(
+        airframe.landing_aircraft(airframe.loading_for(mass=mass, fuel={}, payload={}).factors)
+    )
+
+
+def _draw(path: Path, window: Window, found: Reconstruction) -> None:
+    try:
+        from app.cli.flight_data_plot import draw
+    except ImportError as error:
+        refuse("--plot needs matplotlib: pip install 'hardlanding[plot]'", error)
+    try:
+        draw(path, window, found)
+    except (OSError, ValueError) as error:
+        refuse(f"{path}: {error}", error)
+
+
+def document(window: Window, found: Reconstruction, aircraft: str | None) -> dict[str, Any]:
+    """Plain JSON values, units in the key names."""
+    return {
+        "frame": None if window.frame is None else window.frame.name,
+        "aircraft": aircraft,
+        "channels": [
+            {
+                "parameter": str(channel.parameter),
+                "source": channel.source,
+                "samples": len(channel.time),
+                "rate_hz": channel.rate,
+                "start_s": float(channel.time[0]),
+                "end_s": float(channel.time[-1]),
+            }
+            for channel in window.channels
+        ],
+        "notes": [{"code": note.code, "text": note.text} for note in window.notes],
+        "can_tell": not found.cannot_tell,
+        "cannot_tell": [
+            {"code": each.code, "reason": each.reason, "settled_by": each.settled_by}
+            for each in found.cannot_tell
+        ],
+        "normal_acceleration_offset_g": found.datum.offset if found.datum else None,
+        "contacts": [_contact(contact) for contact in found.contacts],
+    }
+
+
+def _contact(contact: FoundContact) -> dict[str, Any]:
+    state = contact.state
+    return {
+        "kind": str(contact.kind),
+        "time_s": contact.time,
+        "time_sd_s": contact.time_sd,
+        "gear": contact.gear,
+        "indicators": [
+            {
+                "name": ballot.name,
+                "time_s": ballot.time,
+                "sd_s": ballot.sd,
+                "agrees": bool(ballot.agrees),
+            }
+            for ballot in contact.timing.vote.ballots
+        ],
+        "state": {
+            f"{name}_{unit}" if unit != "1" else name: _estimate(getattr(state, name))
+            for name, unit in UNITS.items()
+        },
+        "gear_sink_rates_m_s": {
+            gear: _estimate(estimate) for gear, estimate in state.gear_sink_rates.items()
+        },
+        "assumed": list(state.assumed),
+    }
+
+
+def _estimate(estimate: Estimate) -> dict[str, float | None]:
+    return {
+        key: float(value) if np.isfinite(value) else None
+        for key, value in (("value", estimate.value), ("sd", estimate.sd))
+    }
+
+
+def show(window: Window, found: Reconstruction, aircraft: str | None, console: Console) -> None:
+    """Print for a reader what was understood."""
+    channels = Table(title="Channels", title_justify="left")
+    for heading in ("parameter", "source", "samples", "rate Hz", "from s", "to s"):
+        channels.add_column(heading)
+    for channel in window.channels:
+        channels.add_row(
+            channel.parameter.replace("_", " "),
+            channel.source,
+            str(len(channel.time)),
+            f"{channel.rate:.3g}",
+            f"{channel.time[0]:.2f}",
+            f"{channel.time[-1]:.2f}",
+        )
+    console.print(channels)
+    for note in window.notes:
+        console.print(f"note: {note.text}", markup=False)
+    for each in found.cannot_tell:
+        console.print(
+            f"cannot tell: {each.reason}; would be settled by {each.settled_by}", markup=False
+        )
+    if found.contacts:
+        console.print(_contacts_table(found))
+        where = f"the gears of {aircraft}" if aircraft else "the accelerometer (no --aircraft)"
+        console.print(f"sink rates at {where}; every figure with its standard deviation")
+
+
+def _contacts_table(found: Reconstruction) -> Table:
+    table = Table(title="Contacts", title_justify="left")
+    headings = ("contact", "time s", "gear", "sink m/s", "at gears m/s", "pitch deg", "roll deg")
+    for heading in (*headings, "drift deg", "ground m/s", "lift"):
+        table.add_column(heading)
+    for contact in found.contacts:
+        state = contact.state
+        gears = ", ".join(
+            f"{gear} {estimate.value:.2f}±{estimate.sd:.2f}"
+            for gear, estimate in state.gear_sink_rates.items()
+        )
+        table.add_row(
+            contact.kind.replace("_", " "),
+            f"{contact.time:.3f}±{contact.time_sd:.3f}",
+            contact.gear,
+            _shown(state.sink_rate),
+            gears,
+            _shown(state.pitch, np.rad2deg(1.0)),
+            _shown(state.roll, np.rad2deg(1.0)),
+            _shown(state.drift, np.rad2deg(1.0)),
+            _shown(state.ground_speed),
+            _shown(state.lift_fraction),
+        )
+    return table
+
+
+def _shown(estimate: Estimate, factor: float = 1.0) -> str:
+    return f"{estimate.value * factor:.2f}±{estimate.sd * factor:.2f}"

@@ -1,0 +1,266 @@
+"""Ground contacts of a window: where they are looked for, and how each is timed."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from solver.arrays import Array
+from solver.flight_data.alignment import Series, aligned, best
+from solver.flight_data.geometry import Place
+from solver.flight_data.onset import Indicator, rise_onset
+from solver.flight_data.parameter import Parameter
+from solver.flight_data.vote import Vote, height_indicator, switch_indicator, vote
+from solver.flight_data.window import Window
+
+
+class ContactKind(StrEnum):
+    """What a contact is in the course of a landing."""
+
+    FIRST = "first"  #: out of the flight
+    BOUNCE = "bounce"  #: main wheels again, after they had left the ground
+    NOSE_FIRST = "nose_first"  #: the nose wheel before the mains
+    MAINS = "mains"  #: the main wheels, after the nose wheel
+    DEROTATION = "derotation"  #: the nose wheel, with the mains on the ground or just off it
+
+
+@dataclass(frozen=True, slots=True)
+class ContactTime:
+    """One ground contact."""
+
+    kind: ContactKind
+    time: float  #: [s]
+    sd: float  #: [s]
+    vote: Vote
+
+
+#: Name of the chief indicator.
+ONSET = "normal acceleration"
+
+#: Wheels that are brought to speed pull the aircraft back.
+SPIN_UP = "spin-up drag"
+
+#: Step of the grids on which indicators are compared [s].
+STEP = 0.005
+
+#: Rise of the normal acceleration that may be a contact [g].
+LEAST_RISE = 0.06
+
+#: Rises closer than this are one [s].
+CLOSE = 0.3
+
+#: Its first step over the usual one from sample to sample.
+SUDDEN = 6.0
+
+#: Above this it is no gust.
+PLAIN = 9.0
+
+#: What is still looked at, if the wheels are at the ground by the smoothed height.
+WEAK = 4.0
+
+#: Radio altitude below which a rise may be the first contact; antenna, bias and gaps between
+#: samples leave that much [m].
+NEAR = 2.0
+
+#: A gust changes the normal acceleration by more than this only over a longer time [g].
+GUST = 0.02
+
+_SWITCH_OF = {
+    Place.LEFT: Parameter.GEAR_LEFT,
+    Place.RIGHT: Parameter.GEAR_RIGHT,
+    Place.NOSE: Parameter.GEAR_NOSE,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Rise:
+    """A sudden rise of the normal acceleration."""
+
+    time: float  #: of the first high sample, as filed less the delay but not the filter's [s]
+    height: float  #: of the rise within a few samples [g]
+    suddenness: float  #: its first step over the usual step from sample to sample
+
+
+def rises(
+    normal: Series, drag: Series | None, first: float, last: float, sudden: float
+) -> list[Rise]:
+    """Sudden rises of the normal acceleration in order of time.
+
+    Gusts and the flare change it as much, but over longer: the step from sample to sample is
+    compared with those of the seconds before.  Wheels that spin up pull at the same moment, which
+    is the plainer sign where the sink is small.
+    """
+    time, value = normal.time + normal.lag, normal.value
+    steps = np.diff(value, prepend=value[0])
+    memory = max(6, round(3.0 / normal.interval))
+    reach = max(1, round(0.1 / normal.interval))
+    found: list[Rise] = []
+    for k in np.flatnonzero((time > first) & (time < last)):
+        if k < 6 or k + 1 >= len(value):
+            continue
+        trend, usual = _usual_step(steps[max(1, k - memory) : k], normal.sd)
+        top = value[k : k + reach + 1]
+        height = float(top.max() - value[k - 1])
+        step = (height - trend * (1 + int(np.argmax(top)))) / usual
+        if steps[k] - trend < 2 * usual or step < 2.5 or height < LEAST_RISE:
+            continue
+        if drag is not None and drag.channel.rate >= 4:
+            step = float(np.hypot(step, _pull(drag, float(time[k]) - normal.interval)))
+        if step >= sudden:
+            found.append(Rise(float(time[k]), height, step))
+    return _strongest(found)
+
+
+def _strongest(found: list[Rise]) -> list[Rise]:
+    """Of rises that follow each other closely the most sudden one, in order of time."""
+    kept: list[Rise] = []
+    for rise in sorted(found, key=lambda rise: -rise.suddenness):
+        if all(abs(rise.time - other.time) >= CLOSE for other in kept):
+            kept.append(rise)
+    return sorted(kept, key=lambda rise: rise.time)
+
+
+def _usual_step(steps: Array, noise: float) -> tuple[float, float]:
+    """Median and robust scatter; the first shock must not hide the next one."""
+    trend = float(np.median(steps))
+    return trend, max(1.48 * float(np.median(np.abs(steps - trend))), 1.4 * noise)
+
+
+def _pull(drag: Series, time: float) -> float:
+    """Suddenness of a fall of the longitudinal acceleration after a time."""
+    filed = drag.time + drag.lag
+    before = int(np.searchsorted(filed, time, side="right")) - 1
+    after = (filed > time) & (filed < time + 0.15 + drag.interval)
+    if before < 6 or not np.any(after):
+        return 0.0
+    trend, usual = _usual_step(np.diff(drag.value[max(0, before - 12) : before + 1]), drag.sd)
+    return max(0.0, float(drag.value[before] - drag.value[after].min() + trend) / usual)
+
+
+def first_rises(window: Window, normal: Series) -> list[Rise]:
+    """Rises out of the flight that may be the first contact: near the ground, before the switches.
+
+    In order of time; a soft contact can be so soft that there is none.
+    """
+    low = _lowest_approach(window)
+    if low is None:
+        return []
+    switch = first_closed(window)
+    drag = best(window, Parameter.LONGITUDINAL_ACCELERATION)
+    return [
+        rise
+        for rise in rises(normal, drag, *low, sudden=WEAK)
+        if (switch is None or rise.time < switch + 2 * normal.interval)
+        and rough_height(window, rise.time) < (NEAR if not is_plain(rise) else 2 * NEAR)
+    ]
+
+
+def likely_contact(window: Window) -> float | None:
+    """Rough time of a first contact that no shock shows: radio altitude, or the switches [s]."""
+    if (switch := first_closed(window)) is not None:
+        return switch - 0.3
+    times = []
+    for radio in aligned(window, Parameter.RADIO_ALTITUDE):
+        high = np.flatnonzero(radio.value > 6.0)
+        # Out of the flight: it must have been higher before, which a take-off was not.
+        low = np.flatnonzero(radio.value < 1.0)
+        low = low[low > high[0]] if len(high) else low[:0]
+        times += [float(radio.time[low[0]])] if len(low) else []
+    return float(np.mean(times)) if times else None
+
+
+def rough_height(window: Window, time: float) -> float:
+    """Radio altitude at a time, interpolated; 0 where there is none [m]."""
+    heights = [
+        float(np.interp(time, radio.time, radio.value))
+        for radio in aligned(window, Parameter.RADIO_ALTITUDE)
+    ]
+    return float(np.mean(heights)) if heights else 0.0
+
+
+def is_plain(rise: Rise) -> bool:
+    """Whether a rise is too sudden for anything but a shock."""
+    return rise.suddenness > PLAIN
+
+
+def speaks(contact: ContactTime, name: str) -> bool:
+    """Whether an indicator took part in the vote on a contact."""
+    return any(ballot.name == name for ballot in contact.vote.ballots)
+
+
+def timed(
+    window: Window,
+    normal: Series,
+    around: tuple[float, float],
+    kind: ContactKind,
+    height: tuple[Array, Array, Array] | None,
+    rise: Rise | None,
+) -> ContactTime | None:
+    """Let the indicators vote on the time of one contact; None if none of them speaks.
+
+    Parameters
+    ----------
+    window : Window
+    normal : Series
+        Normal acceleration.
+    around : (float, float)
+        First and last time considered [s].
+    kind : ContactKind
+    height : ((n,), (n,), (n,)), optional
+        Time, smoothed height of the wheel and its standard deviation [s, m, m].
+    rise : Rise, optional
+        Of the normal acceleration, that belongs to it.
+    """
+    grid = np.arange(*around, STEP)
+    indicators: list[Indicator | None] = []
+    places = (Place.NOSE,) if kind is ContactKind.DEROTATION else (Place.LEFT, Place.RIGHT)
+    if rise is not None:
+        until = rise.time + 0.08
+        indicators.append(
+            rise_onset(ONSET, normal, grid, 1.0, GUST, until, kind is ContactKind.BOUNCE)
+        )
+        drag = best(window, Parameter.LONGITUDINAL_ACCELERATION)
+        if drag is not None and drag.channel.rate >= 4 and kind is ContactKind.FIRST:
+            indicators.append(rise_onset(SPIN_UP, drag, grid, -1.0, GUST, until))
+    switches = [
+        series
+        for parameter in (*(_SWITCH_OF[place] for place in places), Parameter.GEAR_ANY)
+        for series in aligned(window, parameter)
+    ]
+    indicators.append(switch_indicator("ground switches", switches, grid))
+    if height is not None:
+        course = (np.interp(grid, height[0], h) for h in height[1:])
+        indicators.append(height_indicator("wheel height", grid, *course))
+    speaking = [each for each in indicators if each is not None]
+    if not speaking:
+        return None
+    result = vote(grid, speaking)
+    return ContactTime(kind, result.time, result.sd, result)
+
+
+def _lowest_approach(window: Window) -> tuple[float, float] | None:
+    """From when to when the aircraft may first touch, from radio altitude or switches."""
+    radios = aligned(window, Parameter.RADIO_ALTITUDE)
+    starts = []
+    for radio in radios:
+        below = np.flatnonzero(radio.value < 6.0)
+        # Out of the flight: something higher must come before it.
+        if len(below) and below[0] > 0:
+            starts.append(float(radio.time[below[0] - 1]))
+    if starts:
+        return min(starts) - 1.0, max(starts) + 15.0
+    switch = first_closed(window)
+    if switch is not None:
+        return switch - 4.0, switch + 0.5
+    return None
+
+
+def first_closed(window: Window) -> float | None:
+    """Filed time of the first main switch that closes after having been open."""
+    times = []
+    for parameter in (Parameter.GEAR_LEFT, Parameter.GEAR_RIGHT, Parameter.GEAR_ANY):
+        for series in aligned(window, parameter):
+            closed = np.flatnonzero((series.value[1:] > 0.5) & (series.value[:-1] < 0.5)) + 1
+            if len(closed):
+                times.append(float(series.time[closed[0]]))
+    return min(times, default=None)

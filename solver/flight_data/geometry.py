@@ -1,0 +1,160 @@
+"""Where wheels, centre of gravity and sensors sit: all that the estimate needs of an aircraft."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from solver.arrays import Array
+from solver.gear.parameters import Gear
+from solver.landing.aircraft import LandingAircraft
+from solver.landing.records import GRAVITY
+
+
+class Place(StrEnum):
+    """Where a gear sits."""
+
+    LEFT = "left"
+    RIGHT = "right"
+    NOSE = "nose"
+
+
+@dataclass(frozen=True, slots=True)
+class Wheel:
+    """Lowest point of a gear's tyres with the strut extended, aircraft level."""
+
+    gear: str
+    place: Place
+    position: Array  #: (3,) structural axes [m]
+
+
+@dataclass(frozen=True, slots=True)
+class Installation:
+    """Where the recorder's sensors sit, structural axes [m].
+
+    The radio altimeter is set to read zero as the main wheels touch at ``zero_pitch``.
+    """
+
+    accelerometer: Array  #: (3,)
+    antenna: Array  #: (3,) of the radio altimeter
+    zero_pitch: float = np.deg2rad(5.0)  #: [rad]
+    position_sd: float = 0.1  #: of each coordinate of both [m]
+
+
+@dataclass(frozen=True, slots=True)
+class Geometry:
+    """Points of an aircraft in its loading state."""
+
+    centre_of_gravity: Array  #: (3,) structural axes [m]
+    wheels: tuple[Wheel, ...]
+    installation: Installation
+    centre_of_gravity_sd: float = 0.05  #: of its station [m]
+    static_closure: float = 0.2  #: of strut and tyre of a main gear, aircraft rolling [m]
+    static_closure_sd: float = 0.1  #: servicing of the struts, lift left [m]
+
+    def of(self, place: Place) -> tuple[Wheel, ...]:
+        """Wheels at a place."""
+        return tuple(wheel for wheel in self.wheels if wheel.place is place)
+
+    @property
+    def mains(self) -> tuple[Wheel, ...]:
+        """Wheels that are not the nose's."""
+        return tuple(wheel for wheel in self.wheels if wheel.place is not Place.NOSE)
+
+
+def usual_installation(centre_of_gravity: Array, gears: tuple[Gear, ...]) -> Installation:
+    """Sensors where they are put unless somebody says otherwise.
+
+    The accelerometer is near the centre of gravity, as 14 CFR 25.1459(a)(2) asks for (within its
+    limits of the mean aerodynamic chord); the antenna is under the fuselage, forward of the main
+    gear.  The distances are assumptions.
+    """
+    lowest = min(float(gear.pivot[2]) for gear in gears)
+    return Installation(
+        accelerometer=np.array([centre_of_gravity[0] - 0.4, 0.0, centre_of_gravity[2]]),
+        antenna=np.array([centre_of_gravity[0] - 1.5, 0.0, lowest]),
+    )
+
+
+def aircraft_geometry(
+    aircraft: LandingAircraft, installation: Installation | None = None
+) -> Geometry:
+    """Geometry of an aircraft of the landing simulation."""
+    return geometry_on_gears(
+        aircraft.gears, aircraft.total_centre_of_gravity, aircraft.total_mass, installation
+    )
+
+
+def geometry_on_gears(
+    gears: tuple[Gear, ...],
+    centre_of_gravity: Array,
+    mass: float,
+    installation: Installation | None = None,
+    centre_of_gravity_sd: float = 0.05,
+) -> Geometry:
+    """Geometry from gears, centre of gravity (3,) structural axes [m] and mass [kg]."""
+    foremost = min(float(gear.pivot[0]) for gear in gears)
+    wheels = []
+    for gear in gears:
+        place = Place.LEFT if gear.pivot[1] < 0 else Place.RIGHT
+        if abs(gear.pivot[1]) < 0.2 and gear.pivot[0] == foremost:
+            place = Place.NOSE
+        bottom = gear.extended_axle - np.array([0.0, 0.0, gear.tyre.free_radius])
+        wheels.append(Wheel(gear.name, place, bottom))
+    return Geometry(
+        centre_of_gravity=centre_of_gravity,
+        wheels=tuple(wheels),
+        installation=installation or usual_installation(centre_of_gravity, gears),
+        centre_of_gravity_sd=centre_of_gravity_sd,
+        static_closure=_static_closure(gears, wheels, centre_of_gravity, mass),
+    )
+
+
+def _static_closure(
+    gears: tuple[Gear, ...], wheels: list[Wheel], centre_of_gravity: Array, mass: float
+) -> float:
+    """Closure of strut and tyre of a main gear that carries its share of the weight [m].
+
+    Oleo as a gas spring at rest (NACA Report 1154), tyre by its own static law.
+    """
+    mains = [
+        gear for gear, wheel in zip(gears, wheels, strict=True) if wheel.place is not Place.NOSE
+    ]
+    others = [w.position[0] for w in wheels if w.place is Place.NOSE]
+    share = 1.0
+    if others:
+        base = mains[0].pivot[0] - others[0]
+        share = float((centre_of_gravity[0] - others[0]) / base)
+    load = share * mass * GRAVITY / len(mains)
+    strut, tyre = mains[0].strut, mains[0].tyre
+    volume, area = strut.initial_gas_volume, strut.pneumatic_area
+    preload = strut.initial_gas_pressure * area
+    packed = (preload / load) ** (1 / strut.polytropic_exponent) if load > preload else 1.0
+    stroke = min(volume / area * (1 - packed), strut.full_stroke)
+    deflection = (load / tyre.count / tyre.vertical_coefficient) ** (1 / tyre.vertical_exponent)
+    return float(stroke + deflection)
+
+
+def point_geometry() -> Geometry:
+    """Aircraft of which nothing is known: everything happens at the accelerometer."""
+    nowhere = np.zeros(3)
+    return Geometry(
+        centre_of_gravity=nowhere,
+        wheels=(Wheel("gear", Place.LEFT, nowhere),),
+        installation=Installation(nowhere, nowhere, zero_pitch=0.0, position_sd=0.0),
+        centre_of_gravity_sd=0.0,
+        static_closure_sd=0.3,
+    )
+
+
+def antenna_height(geometry: Geometry) -> float:
+    """Height of the antenna as the main wheels touch at the installation's zero pitch [m]."""
+    installation = geometry.installation
+    pitch = installation.zero_pitch
+    drop = [
+        float(
+            (wheel.position - installation.antenna) @ np.array([-np.sin(pitch), 0, np.cos(pitch)])
+        )
+        for wheel in geometry.mains
+    ]
+    return -min(drop)

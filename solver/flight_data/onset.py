@@ -1,0 +1,160 @@
+"""When a shock began, from the samples around its rise through the filter of the recorder."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.arrays import Array
+from solver.flight_data.alignment import Series
+
+
+@dataclass(frozen=True, slots=True)
+class Indicator:
+    """What one indicator says about the time of a contact."""
+
+    name: str
+    log_likelihood: Array  #: on the common grid of times, 0 at its largest
+    time: float  #: mean [s]
+    sd: float  #: [s]
+
+
+#: Time over which the load of a gear comes up: tyre first, then the preload of the strut [s].
+_RISES = (0.01, 0.02, 0.04, 0.07, 0.12)
+
+#: How far the true course of a shock leaves the template, per unit of its height.
+_MISFIT = 0.1
+
+#: Scatter of an onset in sampling intervals that the template does not account for: the step of a
+#: brake or a gust in between, a shock of several pulses.
+_SPREAD = 0.2
+
+#: Height of the shock over the highest sample around its rise.
+_HEIGHTS = (0.7, 0.85, 1.0, 1.2, 1.5, 2.0, 3.0)
+
+#: Scatter of its logarithm: some shocks still grow after their first samples.
+_HEIGHT_SPREAD = 0.35
+
+
+def ramp_response(time: Array, rise: Array | float, corner: float) -> Array:
+    """Ramp from 0 at time 0 to 1 at ``rise``, behind a second-order Butterworth low-pass.
+
+    Notes
+    -----
+    Integral of the step response ``1 - exp(-a t) (cos a t + sin a t)``, ``a = sqrt(2) pi corner``,
+    of ``1 / (s^2 + sqrt(2) s + 1)``, over the ramp; without a filter the ramp itself.
+    """
+    if corner <= 0:
+        return np.asarray(np.clip(time / rise, 0.0, 1.0))
+    a = np.sqrt(2.0) * np.pi * corner
+
+    def integral(t: Array) -> Array:
+        late = np.maximum(t, 0.0)
+        return np.asarray(late - (1.0 - np.exp(-a * late) * np.cos(a * late)) / a)
+
+    return np.asarray((integral(time) - integral(time - rise)) / rise)
+
+
+def rise_onset(
+    name: str,
+    series: Series,
+    grid: Array,
+    sign: float,
+    noise: float,
+    until: float,
+    slow: bool = False,
+) -> Indicator | None:
+    """Time at which a recorded quantity began to rise (sign +1) or to fall (sign -1).
+
+    Parameters
+    ----------
+    name : str
+    series : Series
+    grid : (n,) array
+        Times considered [s].
+    sign : float
+    noise : float
+        Least scatter of the quantity before the shock, in its unit.
+    until : float
+        Later samples show the oleo's course and not the onset [s].
+    slow : bool
+        A soft touch may precede the shock: after a bounce the sink is low and one gear is first.
+
+    Returns
+    -------
+    Indicator or None
+        None if the samples show no rise there.
+    """
+    # The filter smears, it does not shift: its response begins with the shock.
+    time = series.time + series.lag
+    before = (time >= grid[0] - 1.2) & (time < grid[0])
+    during = (time >= grid[0]) & (time <= max(until, grid[-1] + 2 * series.interval))
+    if before.sum() < 3 or during.sum() < 2:
+        return None
+    level, moment = sign * series.value[before][-6:], time[before][-6:] - grid[0]
+    slope, _ = np.polyfit(moment, level, 1)
+    base = float(np.mean(level[-3:]) - slope * np.mean(moment[-3:]))
+    residual = level - slope * moment
+    scatter = float(np.hypot(np.std(residual) / 2, max(noise, series.sd)))
+    # A trend goes on for a moment: half of it is taken.
+    shown = sign * series.value[during] - base - slope / 2 * (time[during] - grid[0])
+    height = float(shown.max())
+    if height < 2.0 * scatter:
+        return None
+    return _posterior(name, series, grid, time[during], shown, scatter, height, slow)
+
+
+def _posterior(
+    name: str,
+    series: Series,
+    grid: Array,
+    time: Array,
+    shown: Array,
+    scatter: float,
+    height: float,
+    slow: bool,
+) -> Indicator:
+    """Likelihood of each onset, averaged over rise times and heights."""
+    since = time[None, None, :] - grid[:, None, None]
+    rises = np.array(_RISES)[None, :, None]
+    response = ramp_response(since, rises, series.entry.corner.value)
+    likelihoods = []
+    for factor in _HEIGHTS:
+        expected = factor * height * response
+        sd = np.hypot(scatter, _MISFIT * factor * height * np.minimum(3 * response, 1.0))
+        fit = (-0.5 * ((shown - expected) / sd) ** 2 - np.log(sd)).sum(axis=2)
+        likelihoods.append(fit - 0.5 * (np.log(factor) / _HEIGHT_SPREAD) ** 2)
+    total = np.array(likelihoods)
+    log = np.logaddexp.reduce(np.logaddexp.reduce(total, axis=0), axis=1)
+    # The rest of what the template leaves open grows with the time between samples.
+    spread = float(np.hypot(series.entry.delay_scatter.value, _SPREAD * series.interval))
+    log = blurred(log, grid, spread)
+    # The mean time by which the soft touch comes first; longer with fewer samples to show it.
+    return indicator(
+        name, grid, preceded(log, grid, 0.02 + 0.25 * series.interval) if slow else log
+    )
+
+
+def blurred(log_likelihood: Array, grid: Array, sd: float) -> Array:
+    """Log likelihood after an independent Gaussian error of the time itself."""
+    if sd <= 0:
+        return log_likelihood
+    weight = np.exp(log_likelihood - log_likelihood.max())
+    kernel = np.exp(-0.5 * ((grid[:, None] - grid[None, :]) / sd) ** 2)
+    return np.asarray(np.log(kernel @ weight + 1e-300))
+
+
+def preceded(log_likelihood: Array, grid: Array, mean: float) -> Array:
+    """Log likelihood of an event that comes before another by an exponentially distributed time."""
+    weight = np.exp(log_likelihood - log_likelihood.max())
+    earlier = grid[None, :] - grid[:, None]
+    kernel = np.where(earlier >= 0, np.exp(-np.maximum(earlier, 0.0) / mean), 0.0)
+    return np.asarray(np.log(kernel @ weight + 1e-300))
+
+
+def indicator(name: str, grid: Array, log_likelihood: Array) -> Indicator:
+    """Summarise a log likelihood on a grid."""
+    log = log_likelihood - log_likelihood.max()
+    weight = np.exp(log)
+    weight /= weight.sum()
+    time = float(weight @ grid)
+    return Indicator(name, log, time, float(np.sqrt(weight @ (grid - time) ** 2)))

@@ -1,0 +1,103 @@
+"""One time from several indicators, none of which is trusted blindly."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.arrays import Array
+from solver.flight_data.alignment import Series
+from solver.flight_data.onset import Indicator, indicator
+
+#: Chance that an indicator speaks of something else (a gust, a bump, a late switch).
+DOUBT = 0.03
+
+
+@dataclass(frozen=True, slots=True)
+class Ballot:
+    """What one indicator said, and whether the others bear it out."""
+
+    name: str
+    time: float  #: [s]
+    sd: float  #: [s]
+    agrees: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Vote:
+    """Result of a vote."""
+
+    time: float  #: [s]
+    sd: float  #: [s]
+    ballots: tuple[Ballot, ...]
+
+
+def vote(grid: Array, indicators: list[Indicator]) -> Vote:
+    """Combine indicators on a common grid of times.
+
+    Each is a mixture of its own likelihood and of doubt spread evenly over the grid, so that a
+    wrong one is outvoted instead of dragging the result along.
+    """
+    total = np.zeros(len(grid))
+    for each in indicators:
+        own = np.exp(each.log_likelihood)
+        total += np.log((1 - DOUBT) * own / own.sum() + DOUBT / len(grid))
+    result = indicator("vote", grid, total)
+    ballots = tuple(
+        Ballot(
+            each.name,
+            each.time,
+            each.sd,
+            abs(each.time - result.time) <= 3 * np.hypot(each.sd, result.sd),
+        )
+        for each in indicators
+    )
+    # The grid itself leaves an error of its own.
+    step = float(grid[1] - grid[0])
+    return Vote(result.time, float(np.hypot(result.sd, step / np.sqrt(12.0))), ballots)
+
+
+def switch_indicator(name: str, switches: list[Series], grid: Array) -> Indicator | None:
+    """Weigh ground switches: the first to close does so after the contact.
+
+    How long after is little use: a strut must be compressed before its switch moves, and a soft
+    contact followed by a bounce does not do it at all.
+    """
+    bounds = []
+    for series in switches:
+        closed = np.flatnonzero((series.value[1:] > 0.5) & (series.value[:-1] < 0.5)) + 1
+        for at in closed:
+            if series.time[at] >= grid[0]:
+                earliest = series.time[at - 1] - series.entry.late_most.value - _COMPRESSION
+                bounds.append((float(series.time[at]), float(earliest)))
+    if not bounds:
+        return None
+    latest, earliest = min(bounds)
+    if latest > grid[-1] + _LONGEST:
+        return None
+    after = np.logaddexp(0.0, (grid - latest) / _SOFT)
+    early = 1.0 / (1.0 + np.exp(np.clip((earliest - grid) / _SOFT, -50, 50)))
+    return indicator(name, grid, np.log(0.3 + 0.7 * early) - after)
+
+
+#: Time a strut may take until its switch's stroke [s].
+_COMPRESSION = 0.4
+
+#: A switch that closes so much later tells nothing of this contact [s].
+_LONGEST = 2.0
+
+#: Softness of the bounds [s].
+_SOFT = 0.015
+
+
+def height_indicator(name: str, grid: Array, height: Array, sd: Array) -> Indicator | None:
+    """Weigh a smoothed wheel height: the contact is where it passes zero.
+
+    Parameters
+    ----------
+    grid : (n,) array
+    height, sd : (n,) array
+        Of the wheel above the runway, and its standard deviation [m].
+    """
+    if not (height.min() < 3 * sd.max() and height.max() > -3 * sd.max()):
+        return None
+    return indicator(name, grid, -0.5 * (height / sd) ** 2)

@@ -1,0 +1,128 @@
+"""Recorder windows posted: understood, turned into records, assessed like them."""
+
+from pathlib import Path
+
+import httpx2
+import numpy as np
+import pytest
+
+from solver.aircraft.airframe import load_airframe
+from solver.flight_data.fleet import SyntheticLanding, synthetic_landing
+from solver.flight_data.frame_file import packaged_frame
+from solver.flight_data.geometry import aircraft_geometry
+from solver.flight_data.writing import long_form
+from tests.conftest import Service
+
+FRAME = "business-jet-16"
+
+
+@pytest.fixture(scope="module")
+def landing(aircraft_folder: Path) -> SyntheticLanding:
+    airframe = load_airframe(aircraft_folder / "mini")
+    loading = airframe.loading_for(mass=None, fuel={}, payload={})
+    aircraft = airframe.landing_aircraft(loading.factors)
+    return synthetic_landing(aircraft, aircraft_geometry(aircraft), packaged_frame(FRAME), 21)
+
+
+def post(service: Service, content: str | bytes, **query: str) -> httpx2.Response:
+    return service.client.post(
+        "/v1/flight-data",
+        content=content,
+        params={"aircraft": "mini", **query},
+        headers={**service.key("alpha", "post"), "Content-Type": "text/csv"},
+    )
+
+
+class TestPost:
+    def test_a_window_becomes_a_landing_with_its_contacts(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        response = post(service, long_form(landing.window), frame=FRAME, tail="T-7")
+        assert response.status_code == 202, response.text
+        answer = response.json()
+        assert answer["cannot_tell"] == []
+        first = answer["contacts"][0]
+        assert abs(first["time_s"]) < 0.1  # the synthetic contact is at time 0
+        error = first["sink_rate_m_s"] - landing.contact.sink_rate
+        assert abs(error) < 4 * first["sink_rate_sd_m_s"]
+        assert response.headers["location"] == answer["links"]["assessment"]
+        stored = service.get(answer["links"]["landing"]).json()
+        assert stored["tail"] == "T-7"
+        assert stored["record"]["source"]["frame"] == FRAME
+        given = stored["record"]["contacts"][0]
+        assert given["sink_rate"]["method"] == "smoother"
+        # Pressed into the record with its own deviation, not with a default.
+        assert stored["sd"]["contacts[0].sink_rate"] == pytest.approx(first["sink_rate_sd_m_s"])
+
+    def test_it_is_assessed_as_a_posted_record_is(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        location = post(service, long_form(landing.window), frame=FRAME).headers["location"]
+        service.work()
+        answer = service.get(location).json()
+        assert answer["state"] == "assessed"
+        assert answer["result"]["verdict"] != "UNDETERMINED", answer
+
+    def test_the_same_file_is_the_same_landing(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        one, other = (post(service, long_form(landing.window)).json() for _ in range(2))
+        assert one["landing_id"] == other["landing_id"]
+        assert other["is_repeated"]
+
+    def test_another_file_under_the_same_identifier_is_a_conflict(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        text = long_form(landing.window)
+        assert post(service, text, record_id="w-1").status_code == 202
+        assert post(service, text + "\n", record_id="w-1").status_code == 409
+
+
+def test_a_window_of_one_sample_a_second_is_undetermined_and_says_why(service: Service) -> None:
+    rows = [f"{t},{90 - t},{60 - t / 10},1.0" for t in np.arange(0.0, 60.0)]
+    response = post(service, "t_s,RALT,GS,VRTG\n" + "\n".join(rows) + "\n")
+    assert response.status_code == 202
+    answer = response.json()
+    assert answer["contacts"] == []
+    assert "slow_normal_acceleration" in {each["code"] for each in answer["cannot_tell"]}
+    service.work()
+    assessment = service.get(answer["links"]["assessment"]).json()
+    result = assessment["result"]
+    assert result["verdict"] == "UNDETERMINED"
+    text = " ".join(reason["text"] for reason in result["reasons"])
+    assert "normal acceleration at 4 Hz or more" in text
+    assert "falls between its samples" in text
+
+
+@pytest.mark.parametrize(
+    ("content", "field", "allowed"),
+    [
+        (b"t_s,param,value,unit\n0,VRTG,=1+1,g\n", "line 2, column 3", "numbers and names"),
+        (b"t_s,param,value,unit\n0,VRTG,1.0,g\n0,VR", "line 3", "4 fields"),
+        (b"t_s,param,value,unit\n0,VRTG \xb0,1,g\n", "line 2, byte", "UTF-8"),
+        (b"PK\x03\x04....", "byte 0", "not packed"),
+        (b"\x1f\x8b....", "byte 0", "not packed"),
+        (b"a,b\n1,2\n", "line 1", "t_s"),
+    ],
+)
+def test_a_file_that_is_no_window_is_refused_with_its_place(
+    content: bytes, field: str, allowed: str, shared_service: Service
+) -> None:
+    response = post(shared_service, content)
+    assert response.status_code == 422
+    (error,) = response.json()["errors"]
+    assert field in error["field"]
+    assert allowed in error["allowed"]
+    assert shared_service.get("/v1/landings").json()["items"] == []  # nothing half stored
+
+
+def test_unknown_aircraft_and_frame_are_named(shared_service: Service) -> None:
+    unknown = post(shared_service, b"t_s,VRTG\n0,1\n", aircraft="no-such")
+    assert unknown.json()["errors"][0]["allowed"] == "mini"
+    frame = post(shared_service, b"t_s,VRTG\n0,1\n", frame="dc-3")
+    assert "737-3c" in frame.json()["errors"][0]["allowed"]
+
+
+def test_a_window_that_is_too_large_is_refused(shared_service: Service) -> None:
+    response = post(shared_service, b"0" * (2 * 2**20))
+    assert response.status_code == 413
