@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types contracts check bench verify docs lock openapi clean
+.PHONY: help run test lint types contracts check bench bench-service verify docs lock openapi clean
 SHELL := /bin/sh
 B := .venv/bin
 # One BLAS thread in every process: the work is spread over processes, not inside a product.
@@ -7,7 +7,7 @@ export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
 help:  ## show this list
-	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-10s %s\n", $$1, $$2}'
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-13s %s\n", $$1, $$2}'
 
 run:  ## install, build the example airframe, start the service, post the demo landings
 	@bin/setup && exec $(B)/hardlanding run
@@ -29,6 +29,9 @@ check: test lint types contracts  ## everything that CI runs
 
 bench:  ## timings of one landing, side by side in one run
 	@bin/setup dev && $(B)/python -m benchmarks.landing
+
+bench-service:  ## how the service keeps up, with a real Postgres and Redis (OPTIONS="--landings 200")
+	@bin/setup dev && $(B)/python -m benchmarks.service $(OPTIONS)
 
 verify:  ## compare with independent means, report in var/verify (QUICK=1, ONLY=chapter, DOCS=1)
 	@$(if $(QUICK),bin/setup dev,bin/setup peers || bin/setup dev) && $(B)/python -m verification \

@@ -9,6 +9,7 @@ from pydantic import Field, field_validator, model_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 LANES: dict[str, int] = {"interactive": 0, "bulk": 1}
+LANE_NAMES: dict[int, str] = {rank: name for name, rank in LANES.items()}
 
 
 class Settings(BaseSettings):
@@ -30,6 +31,8 @@ class Settings(BaseSettings):
 
     #: Records are a few kilobytes, also with many contacts; what is larger is a mistake.
     max_body_bytes: Annotated[int, Field(ge=1024)] = 1024 * 1024
+    #: A stream of records is never held, only stored; each of its lines is limited as a body is.
+    max_bulk_bytes: Annotated[int, Field(ge=1024)] = 8 * 1024**3
     #: An oversized body is read and thrown away up to here, so that its sender sees the answer
     #: instead of a reset connection.
     discard_body_bytes: Annotated[int, Field(ge=0)] = 128 * 1024 * 1024
@@ -41,6 +44,10 @@ class Settings(BaseSettings):
     hard_time_limit: Annotated[float, Field(gt=0)] = 30.0
     #: A worker keeps claiming for this long on one nudge, then passes the nudge on.
     drain_budget: Annotated[float, Field(ge=0)] = 1.0
+    #: Where many wait, a worker claims as many at once as it can solve in this time, and puts back
+    #: what it could not.  Whoever comes with priority waits this long, and for one landing more.
+    batch_seconds: Annotated[float, Field(ge=0)] = 0.25
+    batch_limit: Annotated[int, Field(ge=1)] = 32  #: most landings in one claim
     max_attempts: Annotated[int, Field(ge=1)] = 5
     sweep_interval: Annotated[float, Field(gt=0)] = 1.5
     nudge_window: Annotated[int, Field(ge=1)] = 4  #: most nudges that one sweep sends

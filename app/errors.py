@@ -73,6 +73,16 @@ def invalid_record(errors: Sequence[FieldError]) -> Problem:
     )  # fmt: skip
 
 
+def unsupported_type(given: str, allowed: Sequence[str]) -> Problem:
+    """For a body in a form that an endpoint does not read."""
+    one_of = ", ".join(allowed)
+    refused = FieldError("content-type", given, one_of, "is not read here")
+    return problem(
+        415, "unsupported-media-type", "The body is of another type", str(refused),
+        errors=[refused], headers={"Connection": "close"},
+    )  # fmt: skip
+
+
 def responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """Problem responses of an endpoint, for the interface description."""
     return {

@@ -24,6 +24,7 @@ from app.fleet.registry import AircraftRegistry
 from app.fleet.service import remember_models
 from app.flight_data.endpoints import router as flight_data
 from app.health import router as health
+from app.landings.endpoints import BULK_PATH
 from app.landings.endpoints import router as landings
 from app.observe import Metrics, RequestObserver, configure_logging
 from app.sweeper import Sweeper
@@ -75,7 +76,10 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             Middleware(CorrelationIdMiddleware),
             Middleware(RequestObserver, metrics=metrics),
             Middleware(
-                BodyLimit, limit=settings.max_body_bytes, discard=settings.discard_body_bytes
+                BodyLimit,
+                limit=settings.max_body_bytes,
+                discard=settings.discard_body_bytes,
+                streams={BULK_PATH: settings.max_bulk_bytes},
             ),
         ],
     )

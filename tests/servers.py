@@ -153,6 +153,7 @@ class Postgres(_Server):
     """A Postgres server of our own."""
 
     program: ServerProgram = field(default_factory=postgres_program)
+    is_durable: bool = False  #: waits for the disk at each commit, which no test needs
 
     def start(self) -> "Postgres":
         if not hasattr(self, "folder"):
@@ -166,10 +167,12 @@ class Postgres(_Server):
             if setup.wait() != 0:
                 raise RuntimeError((self.folder / "initdb.log").read_text())
         (self.folder / "data/postmaster.pid").unlink(missing_ok=True)
+        durable = "on" if self.is_durable else "off"
         self.process = self._spawn(
             [self._bin() / "postgres", "-D", self.folder / "data", "-p", self.port,
              "-c", "listen_addresses=127.0.0.1", "-c", "unix_socket_directories=",
-             "-c", "fsync=off", "-c", "full_page_writes=off", "-c", "max_connections=200"],
+             "-c", f"fsync={durable}", "-c", f"full_page_writes={durable}",
+             "-c", "max_connections=200"],
             "postgres.log",
         )  # fmt: skip
         wait_until(self._answers, "postgres")

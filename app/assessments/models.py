@@ -11,6 +11,7 @@ from app.db import Base, DatabaseTime, UtcDateTime, new_id
 
 #: As literal text, so that the planner can prove that a query lies within the partial index.
 PENDING_CLAUSE = text("state IN ('queued', 'running')")
+RUNNING_CLAUSE = text("state = 'running'")
 
 
 class AssessmentJob(Base):
@@ -26,6 +27,13 @@ class AssessmentJob(Base):
             "id",
             postgresql_where=PENDING_CLAUSE,
             sqlite_where=PENDING_CLAUSE,
+        ),
+        # The sweep looks for leases that are over; it must not read a whole back-fill for that.
+        Index(
+            "ix_assessment_running",
+            "lease_until",
+            postgresql_where=RUNNING_CLAUSE,
+            sqlite_where=RUNNING_CLAUSE,
         ),
     )
 

@@ -3,17 +3,19 @@
 Every step is one statement under the database's own clock, the same on SQLite and Postgres.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from operator import itemgetter
 from typing import Any
 
 from sqlalchemy import and_, func, or_, select, update
 from sqlalchemy.orm import Session
 
-from app.assessments.models import PENDING_CLAUSE, AssessmentJob
+from app.assessments.models import PENDING_CLAUSE, RUNNING_CLAUSE, AssessmentJob
 from app.assessments.states import State
 from app.audit import service as audit
-from app.db import DatabaseTime, new_id
+from app.db import DatabaseTime, NewToken, UnhurriedCommit
 from app.landings.models import Landing
 
 _LONGEST_ERROR = 4000
@@ -29,6 +31,7 @@ class Claim:
     token: str
     attempts: int
     lease_until: datetime
+    inputs: dict[str, Any]  #: of the solver
 
 
 def _is_due(max_attempts: int) -> Any:
@@ -42,25 +45,59 @@ def _is_due(max_attempts: int) -> Any:
 
 
 def claim(
-    session: Session, *, worker: str, lanes: tuple[int, ...], lease: float, max_attempts: int
-) -> Claim | None:
-    """Take the best due assessment: lowest lane first, then the oldest."""
+    session: Session,
+    *,
+    worker: str,
+    lanes: tuple[int, ...],
+    lease: float,
+    max_attempts: int,
+    most: int = 1,
+) -> list[Claim]:
+    """Take the best due assessments: lowest lane first, then the oldest.
+
+    Several come from one lane only, so that nobody who waits shares a batch with a back-fill.  One
+    that was tried before comes alone: if it kills its worker, it must not use up the attempts of
+    its neighbours.
+    """
+    order = (AssessmentJob.lane, AssessmentJob.created_at, AssessmentJob.id)
+    # As a table of its own: inside a join Postgres might run the limited select more than once.
     best = (
-        select(AssessmentJob.id)
+        select(*order, AssessmentJob.attempts)
         .where(_is_due(max_attempts), AssessmentJob.lane.in_(lanes))
-        .order_by(AssessmentJob.lane, AssessmentJob.created_at, AssessmentJob.id)
-        .limit(1)
+        .order_by(*order)
+        .limit(most)
         .with_for_update(skip_locked=True)
-        .scalar_subquery()
+        .cte("best")
+        .prefix_with("MATERIALIZED")
     )
-    row = session.execute(
+    place = (best.c.lane, best.c.created_at, best.c.id)
+    ranked = select(
+        best.c.id,
+        best.c.lane,
+        best.c.attempts,
+        func.row_number().over(order_by=place).label("place"),
+        func.first_value(best.c.lane).over(order_by=place).label("first_lane"),
+        func.first_value(best.c.attempts).over(order_by=place).label("first_attempts"),
+    ).subquery("ranked")
+    batch = select(ranked.c.id).where(
+        or_(
+            ranked.c.place == 1,
+            and_(
+                ranked.c.lane == ranked.c.first_lane,
+                ranked.c.attempts == 0,
+                ranked.c.first_attempts == 0,
+            ),
+        )
+    )
+    record = select(Landing.inputs).where(Landing.id == AssessmentJob.landing_id)
+    rows = session.execute(
         update(AssessmentJob)
-        .where(AssessmentJob.id == best)
+        .where(AssessmentJob.id.in_(batch))
         .values(
             state=State.RUNNING,
             attempts=AssessmentJob.attempts + 1,
             version=AssessmentJob.version + 1,
-            token=new_id(),
+            token=NewToken(),
             lease_until=DatabaseTime(lease),
             started_at=DatabaseTime(),
             worker=worker,
@@ -72,22 +109,52 @@ def claim(
             AssessmentJob.token,
             AssessmentJob.attempts,
             AssessmentJob.lease_until,
+            record.scalar_subquery(),
+            AssessmentJob.created_at,
+            # A claim that a power cut takes back is made again; who holds it then is fenced.
+            UnhurriedCommit(),
         )
         .execution_options(synchronize_session=False)
-    ).one_or_none()
-    if row is None:
-        return None
-    identifier, landing_id, operator_id, token, attempts, lease_until = row
-    assert token is not None and lease_until is not None  # noqa: S101, PT018 - set just above
-    return Claim(identifier, landing_id, operator_id, token, attempts, lease_until)
+    ).all()
+    # What an update returns comes in no order.
+    return [Claim(*row[:7]) for row in sorted(rows, key=itemgetter(7, 0))]
 
 
-def finish(session: Session, claimed: Claim) -> bool:
-    """Close a claim as assessed; false if another worker has taken over, so nothing may be written.
+def finish(session: Session, claims: Sequence[Claim]) -> list[Claim]:
+    """Close claims as assessed; returns those that still held.
 
-    Call it first in the transaction that writes the verdict: the row stays locked until then.
+    Where another worker has taken over nothing may be written.  Call it first in the transaction
+    that writes the verdicts: the rows stay locked until then.
     """
-    return _close(session, claimed, State.ASSESSED, None)
+    held = set(
+        session.scalars(
+            update(AssessmentJob)
+            .where(_is_held(claims))
+            .values(
+                state=State.ASSESSED,
+                version=AssessmentJob.version + 1,
+                token=None,
+                lease_until=None,
+                finished_at=DatabaseTime(),
+                last_error=None,
+            )
+            .returning(AssessmentJob.id)
+            .execution_options(synchronize_session=False)
+        )
+    )
+    return [claimed for claimed in claims if claimed.assessment_id in held]
+
+
+def _is_held(claims: Sequence[Claim]) -> Any:
+    """The fence: only rows that still carry the token of their claim.
+
+    A token belongs to one claim of one row, so no pairing with the identifiers is needed.
+    """
+    return and_(
+        AssessmentJob.id.in_([claimed.assessment_id for claimed in claims]),
+        AssessmentJob.token.in_([claimed.token for claimed in claims]),
+        AssessmentJob.state == State.RUNNING,
+    )
 
 
 def fail(session: Session, claimed: Claim, error: str) -> bool:
@@ -106,33 +173,34 @@ def give_up(session: Session, claimed: Claim, error: str, max_attempts: int) -> 
     return closed
 
 
-def release(session: Session, claimed: Claim, reason: str) -> bool:
-    """Put a job back that this worker cannot take on now; no attempt is used up."""
-    return _close(session, claimed, State.QUEUED, reason, attempts=claimed.attempts - 1)
+def release(session: Session, claims: Sequence[Claim], reason: str | None = None) -> None:
+    """Put jobs back that this worker cannot take on now; no attempt is used up."""
+    session.execute(
+        update(AssessmentJob)
+        .where(_is_held(claims))
+        .values(
+            state=State.QUEUED,
+            attempts=AssessmentJob.attempts - 1,
+            version=AssessmentJob.version + 1,
+            token=None,
+            lease_until=None,
+            last_error=func.coalesce(reason, AssessmentJob.last_error),
+        )
+        .execution_options(synchronize_session=False)
+    )
 
 
-def _close(
-    session: Session,
-    claimed: Claim,
-    state: State,
-    error: str | None,
-    attempts: int | None = None,
-) -> bool:
+def _close(session: Session, claimed: Claim, state: State, error: str) -> bool:
     result = session.execute(
         update(AssessmentJob)
-        .where(
-            AssessmentJob.id == claimed.assessment_id,
-            AssessmentJob.token == claimed.token,
-            AssessmentJob.state == State.RUNNING,
-        )
+        .where(_is_held([claimed]))
         .values(
             state=state,
-            attempts=claimed.attempts if attempts is None else attempts,
             version=AssessmentJob.version + 1,
             token=None,
             lease_until=None,
             finished_at=None if state is State.QUEUED else DatabaseTime(),
-            last_error=error and error[:_LONGEST_ERROR],
+            last_error=error[:_LONGEST_ERROR],
         )
         .returning(AssessmentJob.id)
         .execution_options(synchronize_session=False)
@@ -172,8 +240,7 @@ def retry(session: Session, assessment_id: str) -> None:
 
 def _is_spent(max_attempts: int) -> Any:
     return and_(
-        PENDING_CLAUSE,
-        AssessmentJob.state == State.RUNNING,
+        RUNNING_CLAUSE,
         AssessmentJob.lease_until < DatabaseTime(),
         AssessmentJob.attempts >= max_attempts,
     )
@@ -227,11 +294,3 @@ def due(session: Session, *, max_attempts: int, limit: int) -> int:
     """How many assessments could be claimed now, counted up to a limit."""
     waiting = select(AssessmentJob.id).where(_is_due(max_attempts)).limit(limit).subquery()
     return session.scalar(select(func.count()).select_from(waiting)) or 0
-
-
-def inputs_of(session: Session, claimed: Claim) -> dict[str, Any]:
-    """The solver's input of the claimed landing."""
-    inputs: dict[str, Any] = session.execute(
-        select(Landing.inputs).where(Landing.id == claimed.landing_id)
-    ).scalar_one()
-    return inputs

@@ -21,13 +21,11 @@ from app.assessments.arrays import PEAK_FIELD, history_kind
 from app.assessments.models import AssessmentJob, VerdictRow
 from app.assessments.states import PENDING, RETRIABLE, State
 from app.audit import service as audit
-from app.config import LANES
+from app.config import LANE_NAMES
 from app.db import reading, writing
 from app.errors import not_found, problem
 from app.security import Principal
 from solver.assessment import Verdict
-
-_LANE_NAMES = {rank: name for name, rank in LANES.items()}
 
 
 def etag(assessment_id: str, version: int) -> str:
@@ -183,7 +181,7 @@ def _answer(job: AssessmentJob, verdict: VerdictRow | None) -> AssessmentOut:
         id=job.id,
         landing_id=job.landing_id,
         state=State(job.state),
-        lane=_LANE_NAMES[job.lane],
+        lane=LANE_NAMES[job.lane],
         attempts=job.attempts,
         created_at=job.created_at,
         started_at=job.started_at,

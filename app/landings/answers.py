@@ -1,11 +1,13 @@
 """Landings as the service answers them, and how lists of them are filtered."""
 
 from datetime import datetime
-from typing import Any
+from enum import StrEnum
+from typing import Any, Literal
 
 from pydantic import BaseModel, Field
 
 from app.assessments.states import State
+from app.errors import ProblemDocument
 from app.landings.schemas import Strict, Token, UtcTime
 from app.paging import Cursor, Limit
 from solver.assessment import ADVISORY, Verdict
@@ -67,3 +69,39 @@ class LandingAccepted(BaseModel):
     taken_as_zero: list[str]
     missing: list[str] = Field(description="What the record lacks for a verdict.")
     links: dict[str, str]
+
+
+class Outcome(StrEnum):
+    """What became of one record of a stream."""
+
+    ACCEPTED = "accepted"  #: stored now
+    REPEATED = "repeated"  #: was stored before
+    REFUSED = "refused"  #: the problem says why; sending it again would not help
+    FAILED = "failed"  #: could not be stored now; send it again
+
+
+class BulkOutcome(BaseModel):
+    """What became of the record in one line."""
+
+    line: int = Field(description="Of the file or stream, from 1; blank lines count and are left.")
+    outcome: Outcome
+    record_id: str | None = Field(
+        default=None, description="The record's own, or the one made from its content."
+    )
+    landing_id: str | None = None
+    assessment_id: str | None = None
+    problem: ProblemDocument | None = None
+
+
+class BulkEnd(BaseModel):
+    """The last line: without it the answer was cut off, and the rest is to be sent again."""
+
+    outcome: Literal["end"] = "end"
+    lines: int = Field(description="Records read.")
+    accepted: int
+    repeated: int
+    refused: int
+    failed: int
+    problem: ProblemDocument | None = Field(
+        default=None, description="Why the stream was not read to its end."
+    )

@@ -1,19 +1,30 @@
 """Landings over HTTP."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 from uuid import UUID
 
-from fastapi import APIRouter, BackgroundTasks, Header, Query, Response, status
+from fastapi import APIRouter, BackgroundTasks, Header, Query, Request, Response, status
 
 from app.context import Context
-from app.errors import responses
+from app.errors import responses, unsupported_type
 from app.landings import service
-from app.landings.answers import LandingAccepted, LandingDetail, LandingFilter, LandingSummary
+from app.landings.answers import (
+    BulkEnd,
+    BulkOutcome,
+    LandingAccepted,
+    LandingDetail,
+    LandingFilter,
+    LandingSummary,
+)
+from app.landings.bulk import BulkIntake
 from app.landings.schemas import TouchdownRecordIn
+from app.ndjson import LINE_TYPES, MULTIPART, NDJSON, Conversation, content_type
 from app.paging import Page
 from app.security import Poster, Reader
 
 router = APIRouter(prefix="/v1/landings", tags=["landings"])
+
+BULK_PATH = f"{router.prefix}/bulk"
 
 IdempotencyHeader = Annotated[
     str | None,
@@ -60,6 +71,62 @@ def post_landing(
     context.metrics.landings_received.labels("repeated" if accepted.is_repeated else "new").inc()
     after.add_task(context.nudger.nudge)
     return accepted
+
+
+_OUTCOMES: dict[int | str, dict[str, Any]] = {
+    200: {
+        "content": {
+            NDJSON: {
+                "schema": {
+                    "oneOf": [
+                        {"$ref": f"#/components/schemas/{model.__name__}"}
+                        for model in (BulkOutcome, BulkEnd)
+                    ]
+                }
+            }
+        }
+    }
+}
+_LINES = {"type": "string", "description": "A touchdown record in each line."}
+
+
+@router.post(
+    "/bulk",
+    operation_id="post_landings_in_bulk",
+    status_code=status.HTTP_200_OK,
+    response_model=BulkOutcome | BulkEnd,
+    response_class=Conversation,
+    response_description="One JSON line for each record, in their order, and one at the end.",
+    responses={**_OUTCOMES, **responses(401, 403, 413, 415)},
+    openapi_extra={
+        "requestBody": {
+            "required": True,
+            "content": {
+                NDJSON: {"schema": _LINES},
+                MULTIPART: {
+                    "schema": {
+                        "type": "object",
+                        "properties": {"file": {**_LINES, "format": "binary"}},
+                    }
+                },
+            },
+        }
+    },
+)
+async def post_landings_in_bulk(
+    request: Request, principal: Poster, context: Context
+) -> Conversation:
+    """Hand in a back-fill: records as JSON lines, as a stream or as an uploaded file.
+
+    Each line is a record as `POST /v1/landings` takes it and has its own outcome; a bad one does
+    not touch the others. Sending a file again is safe: what was stored is found. The landings wait
+    in the bulk lane, behind those that somebody waits for.
+    """
+    kind, boundary = content_type(request.headers.get("content-type"))
+    if kind not in LINE_TYPES and not (kind == MULTIPART and boundary):
+        raise unsupported_type(kind, (*LINE_TYPES, f"{MULTIPART}; boundary=..."))
+    intake = BulkIntake(context, principal, boundary if kind == MULTIPART else None)
+    return Conversation(intake.outcomes)
 
 
 @router.get("", operation_id="list_landings", responses=responses(401, 403, 422))

@@ -1,5 +1,6 @@
 """From a posted record to what the solver takes: SI, signs, defaults and what is missing."""
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -47,14 +48,26 @@ def parse_record(document: bytes | str | Mapping[str, Any]) -> TouchdownRecordIn
     """Check a record's form; raises `InvalidRecordError` naming field, value and range."""
     try:
         if isinstance(document, bytes | str):
-            document = from_json(document)
-        return TouchdownRecordIn.model_validate(document)
+            document = _json(document)
+        # As the web framework does, so that both ways in refuse in the same words.
+        return TouchdownRecordIn.model_validate(document, from_attributes=True)
     except ValidationError as error:
         raise InvalidRecordError(field_errors(error.errors(), TouchdownRecordIn)) from error
     except ValueError as error:
         raise InvalidRecordError(
             [FieldError("body", None, "a JSON object", f"not valid JSON: {error}")]
         ) from error
+
+
+def _json(text: bytes | str) -> Any:
+    try:
+        return from_json(text)
+    except ValueError as error:
+        # The slower reader lets half characters pass, so that the field they are in is named.
+        try:
+            return json.loads(text)
+        except RecursionError:
+            raise error from None
 
 
 def read_record_file(path: Path, aircraft_folder: Path) -> Intake:

@@ -171,8 +171,7 @@ class TestRetry:
     def test_a_dead_assessment_lives_again(self, service: Service) -> None:
         location = service.post(record()).headers["location"]
         with writing(service.engine) as session:
-            claimed = queue.claim(session, worker="w", lanes=(0, 1), lease=60.0, max_attempts=1)
-            assert claimed is not None
+            (claimed,) = queue.claim(session, worker="w", lanes=(0, 1), lease=60.0, max_attempts=1)
             queue.give_up(session, claimed, "it broke", max_attempts=1)
         dead = service.get(location).json()
         assert (dead["state"], dead["last_error"]) == ("dead", "it broke")

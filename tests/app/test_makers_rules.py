@@ -1,5 +1,6 @@
 """The maker's rule beside the stress verdict, over HTTP and on the command line."""
 
+import dataclasses
 import json
 import shutil
 from pathlib import Path
@@ -10,6 +11,7 @@ from alembic import command
 from sqlalchemy import Engine, select, text
 from typer.testing import CliRunner
 
+import worker.work
 from app import migrate
 from app.artefacts.models import Artefact
 from app.cli.main import app
@@ -17,13 +19,14 @@ from app.config import get_settings
 from app.db import make_engine, reading
 from app.landings import inputs
 from app.landings.intake import parse_record, take_in
-from solver.assess import load_assessment_model
-from solver.assessment import TouchdownRecord
+from solver.assess import AssessmentModel, load_assessment_model
+from solver.assessment import Assessment, TouchdownRecord
 from solver.errors import ModelError
 from solver.recorded import RecordedContact, RecordedPeak
 from tests.conftest import Service, Stack
 from tests.records import contact, record
 from tests.solver.verdict.rule_cases import mini_definition
+from worker.solve import solve
 
 
 def g(value: float, rate_hz: float = 16.0) -> dict[str, Any]:
@@ -116,6 +119,18 @@ class TestService:
         statuses = {f["criterion"]: f["status"] for f in result["makers_rule"]["findings"]}
         assert statuses["normal load factor"] == "cannot_tell"
         assert statuses["vertical speed"] == "passed"
+
+    def test_an_aircraft_without_a_rule(
+        self, service: Service, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        def without(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
+            return solve(dataclasses.replace(model, makers_rule=None), landing)
+
+        monkeypatch.setattr(worker.work, "solve", without)
+        result = service.assessed(record(contacts=[complete(3.0)]))["result"]
+        assert result["makers_rule"] is None
+        assert result["rule_difference"] == "no_rule"
+        assert result["action"] == result["verdict"] == "NORMAL"
 
     def test_a_contact_that_cannot_be_simulated_is_still_held_against_the_rule(
         self, service: Service

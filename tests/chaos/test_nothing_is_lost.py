@@ -1,5 +1,6 @@
 """Landings survive whatever happens to workers and broker: none lost, none doubled."""
 
+import json
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -39,6 +40,7 @@ def running(stack: Stack, tmp_path: Path) -> Iterator[Programs]:
             "hard_time_limit": 7.0,
             "soft_time_limit": 5.0,
             "drain_budget": 0.5,
+            "batch_seconds": 2.0,
             "sweep_interval": 0.3,
             "max_attempts": 5,
             "auto_migrate": False,
@@ -94,7 +96,8 @@ def test_killed_workers_and_a_wiped_broker_lose_and_double_nothing(
     assert len(set(places)) == LANDINGS
 
     wait_until(lambda: count(engine, "assessed") >= 20, "the first landings", PATIENCE)
-    wait_until(lambda: count(engine, "running") >= 1, "a landing in mid-solve", PATIENCE)
+    # More than there are processes: both are in the middle of a batch.
+    wait_until(lambda: count(engine, "running") >= 4, "batches in mid-solve", PATIENCE)
     for member in descendants(supervisor.pid):
         kill_at_once(member)
     wipe_broker(stack)
@@ -177,3 +180,36 @@ def test_landings_whose_nudges_were_lost_are_found_by_the_sweeper(
     wipe_broker(stack)
     running.start_worker(concurrency=1)
     wait_until(lambda: count(engine, "assessed") == len(places), "the sweeper's nudge", PATIENCE)
+
+
+def test_a_back_fill_whose_server_died_is_sent_again(
+    running: Programs, stack: Stack, engine: Engine, key: dict[str, str]
+) -> None:
+    number, cut = 3000, 2000
+    rows = [json.dumps(record(2.0 + n % 10, record_id=f"bulk-{n}")) + "\n" for n in range(number)]
+    headers = {**key, "content-type": "application/x-ndjson"}
+    (api,) = running.running
+
+    def dying() -> Iterator[bytes]:
+        yield "".join(rows[:cut]).encode()
+        wait_until(lambda: count(engine, "queued") >= 500, "the first rows", PATIENCE)
+        running.kill(api)
+        for row in rows[cut:]:
+            yield row.encode()
+
+    place = f"{running.url}/v1/landings/bulk"
+    with pytest.raises(httpx2.TransportError):
+        httpx2.post(place, content=dying(), headers=headers, timeout=60.0)
+    stored = count(engine, "queued")
+    assert 500 <= stored <= cut
+    running.start_api()
+    answer = httpx2.post(place, content="".join(rows).encode(), headers=headers, timeout=60.0)
+    end = json.loads(answer.text.splitlines()[-1])
+    assert (end["repeated"], end["accepted"]) == (stored, number - stored)
+    with reading(engine) as session:
+        received = session.scalars(
+            select(AuditEntry.subject_id).where(AuditEntry.action == "received")
+        ).all()
+        landings = session.scalars(select(AssessmentJob.landing_id)).all()
+    assert len(landings) == number
+    assert sorted(received) == sorted(landings)

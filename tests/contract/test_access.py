@@ -13,6 +13,7 @@ UNKNOWN = "00000000-0000-7000-8000-000000000000"
 ENDPOINTS = [
     ("POST", "/v1/landings", "post"),
     ("POST", "/v1/flight-data", "post"),
+    ("POST", "/v1/landings/bulk", "post"),
     ("GET", "/v1/landings", "read"),
     ("GET", "/v1/landings/{landing}", "read"),
     ("GET", "/v1/assessments/{assessment}", "read"),

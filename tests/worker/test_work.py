@@ -4,16 +4,18 @@ import os
 import shutil
 import signal
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from sqlalchemy import select
+from sqlalchemy import select, update
 
 import worker.work
 from app.artefacts.models import Artefact
 from app.assessments import queue, recording
-from app.assessments.models import VerdictRow
+from app.assessments.models import AssessmentJob, VerdictRow
 from app.broker import Nudger
+from app.config import LANES
 from app.db import reading, writing
 from app.fleet.registry import AircraftRegistry
 from solver.assess import AssessmentModel
@@ -21,6 +23,7 @@ from solver.assessment import Assessment, TouchdownRecord
 from solver.errors import EquilibriumError, ModelError, RecordError, SimulationDivergedError
 from tests.conftest import Service
 from tests.records import record
+from worker.pace import Pace
 from worker.solve import solve
 from worker.warm import Models
 from worker.work import work_off
@@ -81,13 +84,8 @@ def test_a_defect_of_the_program_is_tried_again_and_then_dead(
 def test_an_aircraft_that_was_taken_away_fails_with_its_name(service: Service) -> None:
     location = service.post(record()).headers["location"]
     with writing(service.engine) as session:
-        claimed = queue.claim(session, worker="w", lanes=(0,), lease=60.0, max_attempts=5)
-        assert claimed is not None
-        stored = queue.inputs_of(session, claimed)
-        stored["aircraft"] = "gone"
-        queue.give_up(session, claimed, "", 5)
-        landing = session.get(worker.work._all_tables.Landing, claimed.landing_id)
-        landing.inputs = {**stored}
+        landing = session.scalars(select(worker.work._all_tables.Landing)).one()
+        landing.inputs = {**landing.inputs, "aircraft": "gone"}
     service.work()
     answer = service.get(location).json()
     assert answer["state"] == "failed"
@@ -97,16 +95,14 @@ def test_an_aircraft_that_was_taken_away_fails_with_its_name(service: Service) -
 def test_a_worker_that_lost_its_claim_leaves_the_database_untouched(service: Service) -> None:
     location = service.post(record()).headers["location"]
     with writing(service.engine) as session:
-        late = queue.claim(session, worker="w", lanes=(0,), lease=-1.0, max_attempts=5)
-    assert late is not None
-    with reading(service.engine) as session:
-        stored = queue.inputs_of(session, late)
+        (late,) = queue.claim(session, worker="w", lanes=(0,), lease=-1.0, max_attempts=5)
     service.work()
     before = service.get(location).json()
     model = service.models.get("mini")
-    answer = solve(model, worker.work.inputs.from_json(stored))
+    assessed = solve(model, worker.work.inputs.from_json(late.inputs))
+    answer = recording.answer(late, assessed, keeps_arrays_from=0.0)
     with writing(service.engine) as session:
-        assert not recording.record_assessment(session, late, stored, answer, keeps_arrays_from=0.0)
+        assert recording.record_answers(session, [answer]) == []
     assert service.get(location).json() == before
     with reading(service.engine) as session:
         assert len(session.scalars(select(VerdictRow)).all()) == 1
@@ -148,6 +144,93 @@ def test_the_default_keeps_everything_on_one_machine_and_what_matters_in_a_fleet
 ) -> None:
     settings = service.settings.model_copy(update={"keep_arrays_above": None})
     assert settings.keeps_arrays_from == (0.0 if settings.database_url is None else 0.8)
+
+
+class TestBatch:
+    """Several landings in one claim."""
+
+    @pytest.fixture
+    def fast(self, monkeypatch: pytest.MonkeyPatch, service: Service) -> list[str]:
+        """Three landings wait and the worker believes itself fast enough for all of them."""
+        monkeypatch.setattr(Pace, "batch", lambda _self, **limits: limits["most"])
+        return [service.post(record(rate)).headers["location"] for rate in (2.0, 3.0, 4.0)]
+
+    def states(self, service: Service, places: list[str]) -> list[tuple[str, int]]:
+        answers = [service.get(place).json() for place in places]
+        return [(answer["state"], answer["attempts"]) for answer in answers]
+
+    def test_is_answered_whole(self, service: Service, fast: list[str]) -> None:
+        service.work()
+        assert self.states(service, fast) == [("assessed", 1)] * 3
+        with reading(service.engine) as session:
+            found = session.scalars(select(VerdictRow).order_by(VerdictRow.worst_utilisation))
+            rates = [verdict.inputs["contacts"][0]["sink_rate"] for verdict in found]
+        assert rates == sorted(rates)
+
+    def test_a_failure_takes_nobody_with_it(
+        self, service: Service, fast: list[str], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        def fragile(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
+            if landing.contacts[0].sink_rate == pytest.approx(3.0 * 0.3048):
+                raise EquilibriumError("residual 1e-3")
+            return solve(model, landing)
+
+        monkeypatch.setattr(worker.work, "solve", fragile)
+        service.work()
+        assert self.states(service, fast) == [("assessed", 1), ("failed", 1), ("assessed", 1)]
+
+    def test_an_answer_that_cannot_be_written_takes_nobody_with_it(
+        self, service: Service, fast: list[str], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        def unwritable(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
+            answer = solve(model, landing)
+            if landing.contacts[0].sink_rate == pytest.approx(3.0 * 0.3048):
+                return replace(answer, model_hash=None)
+            return answer
+
+        monkeypatch.setattr(worker.work, "solve", unwritable)
+        service.work()
+        attempts = service.settings.max_attempts
+        assert self.states(service, fast) == [("assessed", 1), ("dead", attempts), ("assessed", 1)]
+
+    def test_what_would_take_too_long_is_put_back_and_priority_comes_first(
+        self, service: Service, fast: list[str], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        with writing(service.engine) as session:
+            session.execute(update(AssessmentJob).values(lane=LANES["bulk"]))
+        order: list[float] = []
+
+        def interrupted(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
+            order.append(round(landing.contacts[0].sink_rate / 0.3048, 3))
+            if len(order) == 1:
+                service.post(record(9.0))
+            return solve(model, landing)
+
+        monkeypatch.setattr(worker.work, "solve", interrupted)
+        settings = service.settings.model_copy(update={"batch_seconds": 0.0})
+        nudger = Nudger(settings)
+        while work_off(service.engine, settings, service.models, nudger):
+            pass
+        nudger.close()
+        assert order == [2.0, 9.0, 3.0, 4.0]
+        assert self.states(service, fast) == [("assessed", 1)] * 3
+
+
+class TestPace:
+    def test_begins_with_one(self) -> None:
+        assert Pace().batch(within=0.25, most=32) == 1
+
+    @pytest.mark.parametrize(("seconds", "batch"), [(0.0, 32), (0.02, 12), (0.2, 1), (3.0, 1)])
+    def test_claims_what_fits(self, seconds: float, batch: int) -> None:
+        pace = Pace()
+        pace.note(seconds)
+        assert pace.batch(within=0.25, most=32) == batch
+
+    def test_follows_the_fleet(self) -> None:
+        pace = Pace(0.01)
+        for _ in range(20):
+            pace.note(1.0)
+        assert pace.batch(within=0.25, most=32) == 1
 
 
 class TestNewAircraft:
