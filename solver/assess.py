@@ -5,6 +5,7 @@ then costs a simulation, a small integration and a search for peaks.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -19,6 +20,7 @@ from solver.assessment import (
     GearLoad,
     HotSpot,
     PeakField,
+    RuleVerdict,
     Timing,
     TouchdownRecord,
 )
@@ -33,9 +35,13 @@ from solver.landing.compilation import compile_kernels
 from solver.landing.history import LandingHistory
 from solver.landing.simulate import simulate_landing
 from solver.progress import Progress, silent
+from solver.verdict.action import combine
 from solver.verdict.gear_loads import gear_loads
 from solver.verdict.hot_spots import rank_hot_spots
 from solver.verdict.judge import judge, severest
+from solver.verdict.makers_rule import MakersRule
+from solver.verdict.makers_rule_reader import load_makers_rule
+from solver.verdict.rule_findings import apply_rule
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +50,7 @@ class AssessmentModel:
 
     airframe: Airframe
     reduced: ReducedModel
+    makers_rule: MakersRule | None = None
 
     @property
     def name(self) -> str:
@@ -74,11 +81,13 @@ def load_assessment_model(
         The folder cannot be used; says where and why.
     """
     airframe = load_airframe(folder, progress)
+    # Before the reduced model: a rule that cannot be read should not cost a minute first.
+    rule = load_makers_rule(folder, airframe.definition.makers_rule)
     reduced = reduced_model(airframe, cache, progress=progress)
     progress("compiling the kernels", 0.0)
     compile_kernels()
     progress("compiling the kernels", 1.0)
-    return AssessmentModel(airframe, reduced)
+    return AssessmentModel(airframe, reduced, rule)
 
 
 def assess_landing(
@@ -132,10 +141,16 @@ def assess_landing(
     )
     spots = rank_hot_spots(airframe, field) if histories else ()
     reasons = judge(definition, record, mass, histories, loads, spots[0] if spots else None)
+    verdict = severest(reasons)
+    rule = judge_by_rule(model, record, histories)
+    action, difference = combine(verdict, rule)
     # With no contact to simulate nothing is known, and a zero would read as harmless.
     worst = max((spot.utilisation for spot in spots), default=math.nan)
     return Assessment(
-        verdict=severest(reasons),
+        verdict=verdict,
+        action=action,
+        rule_difference=difference,
+        makers_rule=rule,
         reasons=reasons,
         probability_limit_exceeded=None,
         driving_contact=_driving_contact(spots, loads),
@@ -160,6 +175,15 @@ def assess_landing(
         peak_field=field if histories else None,
         histories=tuple(histories),
     )
+
+
+def judge_by_rule(
+    model: AssessmentModel, record: TouchdownRecord, histories: Sequence[LandingHistory] = ()
+) -> RuleVerdict | None:
+    """Hold a landing against the maker's rule alone; it needs no simulation, but gains by it."""
+    if model.makers_rule is None:
+        return None
+    return apply_rule(model.makers_rule, model.airframe.definition, record, histories)
 
 
 class _Clock:

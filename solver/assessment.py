@@ -6,6 +6,7 @@ from enum import StrEnum
 from solver.arrays import Array, IntArray
 from solver.landing.contact import Contact
 from solver.landing.history import LandingHistory
+from solver.recorded import RecordedContact
 
 
 class Verdict(StrEnum):
@@ -39,6 +40,7 @@ class TouchdownRecord:
     fuel: dict[str, float] = field(default_factory=dict)  #: tank name to fuel mass [kg]
     payload: dict[str, float] = field(default_factory=dict)  #: bay name to mass [kg]
     missing: tuple[str, ...] = ()  #: names of what the record lacks for a verdict
+    recorded: tuple[RecordedContact, ...] = ()  #: every contact, with unknown state or without
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +91,52 @@ class GearLoad:
     bounces: int  #: stays on the ground beyond the first
 
 
+class RuleStatus(StrEnum):
+    """What a maker's rule says of a contact."""
+
+    PASSED = "passed"
+    EXCEEDED = "exceeded"
+    CANNOT_TELL = "cannot_tell"
+
+
+class RuleDifference(StrEnum):
+    """How the maker's rule and the stress verdict stand to each other."""
+
+    AGREE = "agree"
+    STRESS_STRICTER = "stress_stricter"
+    RULE_STRICTER = "rule_stricter"
+    RULE_CANNOT_TELL = "rule_cannot_tell"
+    NO_RULE = "no_rule"  #: the aircraft's definition names none
+
+
+@dataclass(frozen=True, slots=True)
+class RuleFinding:
+    """One criterion of a maker's rule at one contact; SI, load factors in g."""
+
+    criterion: str
+    contact: int  #: of all the record's contacts, from 0
+    quantity: str
+    unit: str  #: of value and limit
+    value: float | None  #: as recorded; None if it is not
+    limit: float | None  #: None where it cannot be told; 0 means inspect whatever the value
+    status: RuleStatus
+    action: Verdict  #: what the rule asks for where the limit is exceeded
+    text: str  #: in the units of the rule
+    source: str
+    certainty: str  #: of the source, see `solver.verdict.makers_rule.Certainty`
+
+
+@dataclass(frozen=True, slots=True)
+class RuleVerdict:
+    """What a maker's rule says of a landing."""
+
+    rule: str
+    title: str
+    status: RuleStatus  #: exceeded if any finding is, else cannot_tell if any is
+    verdict: Verdict  #: NORMAL, INSPECT, HARD, or UNDETERMINED where the rule cannot tell
+    findings: tuple[RuleFinding, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class PeakField:
     """Every element's peak over the whole landing, in the solver's element order."""
@@ -114,7 +162,10 @@ class Timing:
 class Assessment:
     """All that is stored about a landing."""
 
-    verdict: Verdict
+    verdict: Verdict  #: from stress and gear loads
+    action: Verdict  #: the stricter of that and the maker's rule
+    rule_difference: RuleDifference
+    makers_rule: RuleVerdict | None  #: None if the aircraft's definition names no rule
     reasons: tuple[Reason, ...]
     probability_limit_exceeded: float | None  #: filled once the record's uncertainty is propagated
     driving_contact: int | None  #: None if no contact could be simulated

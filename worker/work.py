@@ -121,7 +121,7 @@ def _solve(known: Models, claimed: Claim) -> Assessment:
     try:
         return solve(model, record)
     except (RecordError, SimulationDivergedError) as error:
-        return undetermined(model.content_hash, error)
+        return undetermined(model, record, error)
 
 
 def _write(engine: Engine, settings: Settings, answers: Sequence[Answer]) -> None:

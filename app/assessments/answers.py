@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import BaseModel, Field
 
 from app.assessments.states import State
-from solver.assessment import ADVISORY, Verdict
+from solver.assessment import ADVISORY, RuleDifference, RuleStatus, Verdict
 
 
 class ReasonOut(BaseModel):
@@ -34,10 +34,48 @@ class GearLoadOut(BaseModel):
     bounces: int
 
 
+class RuleFindingOut(BaseModel):
+    """One criterion of the maker's rule at one contact; value and limit in `unit`."""
+
+    criterion: str
+    contact: int = Field(description="Of all contacts of the record, from 0.")
+    quantity: str
+    unit: str
+    value: float | None = Field(description="As recorded; null if it is not.")
+    limit: float | None = Field(
+        description="Null where it cannot be told; 0 asks for an inspection whatever the value."
+    )
+    status: RuleStatus
+    action: Verdict = Field(description="What the rule asks for where the limit is exceeded.")
+    text: str
+    source: str
+    certainty: str = Field(
+        description="Of the source: `read` there, `computed` from it, from `memory`, or `assumed`."
+    )
+
+
+class RuleVerdictOut(BaseModel):
+    """What the maker's hard-landing rule says of the recorded peaks."""
+
+    rule: str
+    title: str
+    status: RuleStatus
+    verdict: Verdict = Field(description="UNDETERMINED where the rule cannot tell.")
+    findings: list[RuleFindingOut]
+
+
 class VerdictOut(BaseModel):
     """What was found and what it rests on."""
 
-    verdict: Verdict
+    verdict: Verdict = Field(description="From stresses, gear loads and contact conditions.")
+    action: Verdict = Field(
+        description="What to do: the stricter of `verdict` and the maker's rule. A rule that "
+        "cannot tell leaves the verdict as it is."
+    )
+    rule_difference: RuleDifference
+    makers_rule: RuleVerdictOut | None = Field(
+        description="Null if the aircraft's definition names no rule."
+    )
     is_provisional: bool
     reasons: list[ReasonOut]
     probability_limit_exceeded: float | None = Field(

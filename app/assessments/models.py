@@ -63,6 +63,9 @@ class VerdictRow(Base):
     operator_id: Mapped[str] = mapped_column(ForeignKey("operator.id"))
     landing_id: Mapped[str] = mapped_column(ForeignKey("landing.id"), index=True)
     verdict: Mapped[str] = mapped_column(String(12))
+    action: Mapped[str] = mapped_column(String(12))  #: the stricter of verdict and maker's rule
+    rule_difference: Mapped[str] = mapped_column(String(20))
+    makers_rule: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     is_provisional: Mapped[bool] = mapped_column(default=False)
     probability_limit_exceeded: Mapped[float | None] = mapped_column(Float)
     driving_contact: Mapped[int | None] = mapped_column(Integer)

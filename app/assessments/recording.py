@@ -15,7 +15,7 @@ from app.assessments.models import HotSpotRow, VerdictRow
 from app.assessments.queue import Claim
 from app.audit import service as audit
 from app.rows import insert_rows
-from solver.assessment import Assessment, HotSpot, Verdict
+from solver.assessment import Assessment, HotSpot, RuleVerdict, Verdict
 
 #: Whatever sends an inspector to the aircraft keeps its pictures.
 _ALWAYS_KEPT = (Verdict.INSPECT, Verdict.HARD, Verdict.UNDETERMINED)
@@ -35,7 +35,7 @@ class Answer:
 def answer(claimed: Claim, assessment: Assessment, *, keeps_arrays_from: float) -> Answer:
     """Make the rows of an assessment, before the transaction that would hold locks meanwhile."""
     is_kept = (
-        assessment.verdict in _ALWAYS_KEPT or not assessment.worst_utilisation < keeps_arrays_from
+        assessment.action in _ALWAYS_KEPT or not assessment.worst_utilisation < keeps_arrays_from
     )
     return Answer(
         claimed,
@@ -53,6 +53,7 @@ def answer(claimed: Claim, assessment: Assessment, *, keeps_arrays_from: float) 
             detail={
                 "assessment": claimed.assessment_id,
                 "verdict": str(assessment.verdict),
+                "action": str(assessment.action),
                 "attempt": claimed.attempts,
             },
         ),
@@ -90,6 +91,9 @@ def _verdict(claimed: Claim, assessment: Assessment) -> dict[str, Any]:
         "operator_id": claimed.operator_id,
         "landing_id": claimed.landing_id,
         "verdict": assessment.verdict,
+        "action": assessment.action,
+        "rule_difference": assessment.rule_difference,
+        "makers_rule": _rule(assessment.makers_rule),
         "probability_limit_exceeded": _number(assessment.probability_limit_exceeded),
         "driving_contact": assessment.driving_contact,
         "worst_utilisation": _number(assessment.worst_utilisation),
@@ -130,6 +134,13 @@ def _hot_spot(assessment_id: str, spot: HotSpot) -> dict[str, Any]:
         "ata_chapter": spot.ata_chapter,
         "inspection": spot.inspection,
     }
+
+
+def _rule(verdict: RuleVerdict | None) -> dict[str, Any] | None:
+    if verdict is None:
+        return None
+    findings = [_plain(asdict(finding)) for finding in verdict.findings]
+    return asdict(verdict) | {"findings": findings}
 
 
 def _number(value: float | None) -> float | None:

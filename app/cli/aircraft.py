@@ -14,6 +14,7 @@ from app.config import get_settings
 from solver.aircraft.airframe import load_airframe
 from solver.aircraft.check import AirframeCheck, check_airframe
 from solver.errors import SolverError
+from solver.verdict.makers_rule_reader import load_makers_rule
 
 aircraft = typer.Typer(no_args_is_help=True)
 
@@ -45,13 +46,18 @@ def check(
     """Read and assemble an aircraft, weigh it, and prove that it moves rigidly without stress."""
     try:
         with progress_bars() as progress:
-            found = check_airframe(load_airframe(folder, progress), progress)
+            airframe = load_airframe(folder, progress)
+            rule = load_makers_rule(folder, airframe.definition.makers_rule)
+            found = check_airframe(airframe, progress)
     except (SolverError, OSError) as error:
         STANDARD_ERROR.print(str(error), style="red", markup=False)
         raise typer.Exit(2) from error
     if as_json:
-        typer.echo(json.dumps(document(found), indent=1))
+        name = None if rule is None else rule.name
+        typer.echo(json.dumps(document(found) | {"makers_rule": name}, indent=1))
     else:
+        title = "none" if rule is None else rule.title
+        Console().print(f"maker's rule: {title}", markup=False)
         show(found, Console())
     if not found.is_sound:
         raise typer.Exit(1)

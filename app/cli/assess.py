@@ -15,7 +15,7 @@ from app.config import get_settings
 from app.landings.field_errors import InvalidRecordError
 from app.landings.intake import read_record_file
 from solver.assess import assess_landing, load_assessment_model
-from solver.assessment import Assessment, Verdict
+from solver.assessment import Assessment, RuleDifference, RuleStatus, RuleVerdict, Verdict
 from solver.errors import SolverError
 
 COLOURS = {
@@ -75,6 +75,34 @@ def _plain(value: Any) -> Any:
     return value
 
 
+#: How the two verdicts stand to each other, in words for the action line.
+_DIFFERENCES = {
+    RuleDifference.AGREE: "stress verdict and maker's rule agree",
+    RuleDifference.STRESS_STRICTER: "the stress verdict is stricter than the maker's rule",
+    RuleDifference.RULE_STRICTER: "the maker's rule is stricter than the stress verdict",
+    RuleDifference.RULE_CANNOT_TELL: "the maker's rule cannot tell; the stress verdict is alone",
+    RuleDifference.NO_RULE: "the aircraft's definition names no maker's rule",
+}
+
+_STATUS_WORDS = {
+    RuleStatus.PASSED: "passed",
+    RuleStatus.EXCEEDED: "exceeded",
+    RuleStatus.CANNOT_TELL: "cannot tell",
+}
+
+
+def _show_action(assessment: Assessment, console: Console) -> None:
+    colour = COLOURS[assessment.action]
+    difference = _DIFFERENCES[assessment.rule_difference]
+    console.print(f"action [bold {colour}]{assessment.action}[/]: {difference}")
+    rule: RuleVerdict | None = assessment.makers_rule
+    if rule is not None:
+        console.print(f"maker's rule, {rule.title}: {_STATUS_WORDS[rule.status]}", markup=False)
+        for finding in rule.findings:
+            status = _STATUS_WORDS[finding.status]
+            console.print(f"  {status}: {finding.text}", markup=False)
+
+
 def show(assessment: Assessment, console: Console) -> None:
     """Print what an engineer wants first: verdict, reasons, where to look, gear loads."""
     colour = COLOURS[assessment.verdict]
@@ -85,6 +113,7 @@ def show(assessment: Assessment, console: Console) -> None:
     )
     for reason in assessment.reasons:
         console.print(f"  {reason.verdict}: {reason.text}", markup=False)
+    _show_action(assessment, console)
     spots = Table(title="Where to look", title_justify="left")
     for heading in ("zone", "side", "element", "stress MPa", "used", "time s", "ATA"):
         spots.add_column(heading)

@@ -111,7 +111,7 @@ def _waited_for(condition: Callable[[], bool]) -> bool:
 def post_demo_landings(url: str, api_key: str, console: Console) -> None:
     """Post the demo landings, wait for their verdicts, print them."""
     table = Table(title="Demo landings", title_justify="left")
-    for heading in ("landing", "verdict", "used", "load factor", "hottest", "solved in"):
+    for heading in ("landing", "verdict", "action", "used", "load factor", "hottest", "solved in"):
         table.add_column(heading)
     with httpx.Client(base_url=url, headers={"X-API-Key": api_key}, timeout=30.0) as client:
         addresses = {name: _post(client, name) for name in DEMO_ORDER}
@@ -119,13 +119,14 @@ def post_demo_landings(url: str, api_key: str, console: Console) -> None:
             answer = _finished(client, address)
             result = answer["result"]
             if result is None:
-                table.add_row(name, answer["state"], "", "", answer["last_error"] or "", "")
+                table.add_row(name, answer["state"], "", "", "", answer["last_error"] or "", "")
                 continue
             spots = client.get(f"{address}/hot-spots").raise_for_status().json()["items"]
             hottest = spots[0]
             table.add_row(
                 name,
                 result["verdict"],
+                result["action"],
                 f"{result['worst_utilisation']:.0%}",
                 f"{result['peak_normal_load_factor']:.2f} g",
                 hottest["zone"],

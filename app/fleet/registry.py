@@ -61,7 +61,7 @@ class AircraftRegistry:
 def _read(folder: Path) -> RegisteredAircraft | None:
     try:
         definition = load_definition(folder)
-        return RegisteredAircraft(folder, definition, content_hash(folder, definition.bulk_data))
+        return RegisteredAircraft(folder, definition, content_hash(folder, *definition.files))
     except (ModelError, OSError) as error:
         # One broken folder must not take the other aircraft out of service.
         log.error("aircraft.unreadable", folder=str(folder), error=str(error))

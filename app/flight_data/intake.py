@@ -24,7 +24,7 @@ from solver.flight_data.window import Window
 #: little: the accelerometer is taken at the same height.
 _ABOVE_PIVOTS = 0.5
 
-#: After a contact in which its peak of normal acceleration falls [s].
+#: After a contact in which its peaks of normal and lateral acceleration fall [s].
 _PEAK_SPAN = 0.6
 
 #: A record lists no more contacts.
@@ -142,12 +142,18 @@ def _contact(
     for name, unit in (("drift", "rad"), ("ground_speed", "m/s"), ("yaw_rate", "rad/s")):
         if name not in state.assumed:
             given[name] = _number(getattr(state, name), unit)
-    normal = window.first(Parameter.NORMAL_ACCELERATION)
-    if normal is not None:
-        inside = (normal.time > contact.time) & (normal.time < contact.time + _PEAK_SPAN)
+    for name, parameter, size in (
+        ("nz_peak", Parameter.NORMAL_ACCELERATION, np.positive),
+        ("ny_peak", Parameter.LATERAL_ACCELERATION, np.abs),
+    ):
+        channel = window.first(parameter)
+        if channel is None:
+            continue
+        inside = (channel.time > contact.time) & (channel.time < contact.time + _PEAK_SPAN)
         if np.any(inside):
-            peak = float(normal.value[inside].max())
-            given["nz_peak"] = {"value": peak, "unit": "g", "rate_hz": normal.rate}
+            values = channel.value[inside]
+            peak = float(values[np.argmax(size(values))])
+            given[name] = {"value": peak, "unit": "g", "rate_hz": channel.rate}
     return given
 
 

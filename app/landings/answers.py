@@ -39,6 +39,9 @@ class LandingSummary(BaseModel):
     assessment_id: str
     state: State
     verdict: Verdict | None = None
+    action: Verdict | None = Field(
+        default=None, description="The stricter of the verdict and the maker's rule."
+    )
     is_provisional: bool | None = None
     worst_utilisation: float | None = None
     links: dict[str, str]

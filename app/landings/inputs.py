@@ -5,6 +5,7 @@ from typing import Any
 
 from solver.assessment import TouchdownRecord
 from solver.landing.contact import Contact, Lift, LiftModel
+from solver.recorded import RecordedContact, RecordedPeak
 
 
 def to_json(record: TouchdownRecord) -> dict[str, Any]:
@@ -15,8 +16,21 @@ def from_json(stored: dict[str, Any]) -> TouchdownRecord:
     contacts = tuple(
         Contact(**{**contact, "lift": _lift(contact["lift"])}) for contact in stored["contacts"]
     )
-    return TouchdownRecord(**{**stored, "contacts": contacts, "missing": tuple(stored["missing"])})
+    # Landings stored by earlier versions carry no recorded peaks.
+    recorded = tuple(_recorded(contact) for contact in stored.get("recorded", ()))
+    missing = tuple(stored["missing"])
+    return TouchdownRecord(
+        **{**stored, "contacts": contacts, "missing": missing, "recorded": recorded}
+    )
 
 
 def _lift(stored: dict[str, Any]) -> Lift:
     return Lift(**{**stored, "model": LiftModel(stored["model"])})
+
+
+def _recorded(stored: dict[str, Any]) -> RecordedContact:
+    peaks = {
+        name: None if stored[name] is None else RecordedPeak(**stored[name])
+        for name in ("normal_load_factor", "lateral_load_factor")
+    }
+    return RecordedContact(**{**stored, **peaks})

@@ -11,11 +11,13 @@ from pydantic_core import from_json
 
 from app.landings.field_errors import FieldError, InvalidRecordError, field_errors
 from app.landings.quantities import CentreOfGravity, FuelOrPayload, Measured
+from app.landings.recorded import recorded_contact
 from app.landings.schemas import ContactIn, LiftIn, TouchdownRecordIn
 from solver.aircraft.definition import AircraftDefinition, MassGroup
 from solver.aircraft.definition_reader import load_definition
 from solver.assessment import TouchdownRecord
 from solver.landing.contact import Contact, Lift, LiftModel
+from solver.recorded import RecordedContact
 
 #: Below this rate a landing peak can be missed altogether, so a recorded peak proves nothing.
 LOWEST_RECORDER_RATE = 4.0  #: [Hz]
@@ -100,6 +102,7 @@ class _Conversion:
         self.definition = definition
         self.errors: list[FieldError] = []
         self.missing: list[str] = []
+        self.recorded: list[RecordedContact] = []
         self.sd: dict[str, float] = {}
         self.sd_defaulted: list[str] = []
         self.taken_as_zero: list[str] = []
@@ -113,6 +116,7 @@ class _Conversion:
             fuel=self._group_masses("fuel", self.record.fuel, self.definition.tanks),
             payload=self._group_masses("payload", self.record.payload, self.definition.bays),
             missing=tuple(self.missing),
+            recorded=tuple(self.recorded),
         )
         if self.errors:
             raise InvalidRecordError(self.errors)
@@ -185,7 +189,7 @@ class _Conversion:
 
     def _contacts(self) -> list[Contact]:
         first = self.record.contacts[0].t_utc
-        contacts = []
+        contacts: list[Contact] = []
         for index, given in enumerate(self.record.contacts):
             path = f"contacts[{index}]"
             absent = [name for name in NEEDED_FOR_A_VERDICT if getattr(given, name) is None]
@@ -195,6 +199,8 @@ class _Conversion:
             if time is None and first is not None and given.t_utc is not None:
                 time = (given.t_utc - first).total_seconds()
             contact = self._contact(path, given, time or 0.0)
+            simulated = None if absent else len(contacts)
+            self.recorded.append(recorded_contact(given, simulated))
             if not absent:  # a zero in place of an unknown speed would be simulated as a greaser
                 contacts.append(contact)
         return contacts

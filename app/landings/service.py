@@ -164,6 +164,7 @@ def _summary(row: repository.Listed) -> LandingSummary:
         assessment_id=job.id,
         state=State(job.state),
         verdict=Verdict(verdict.verdict) if verdict else None,
+        action=Verdict(verdict.action) if verdict else None,
         is_provisional=verdict.is_provisional if verdict else None,
         worst_utilisation=verdict.worst_utilisation if verdict else None,
         links=_links(landing.id, job.id),

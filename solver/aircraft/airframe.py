@@ -123,7 +123,7 @@ def load_airframe(folder: Path, progress: Progress = silent) -> Airframe:
     definition = load_definition(folder)
     path = folder / definition.bulk_data
     deck = read_bulk_data(path)
-    identity = content_hash(folder, definition.bulk_data)
+    identity = content_hash(folder, *definition.files)
     progress("reading the aircraft", 0.5)
     try:
         empty, loads = _separated(deck.model, definition)

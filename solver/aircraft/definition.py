@@ -225,6 +225,15 @@ class AircraftDefinition:
     air_loads: AirLoadLayout
     materials: tuple[MaterialAllowable, ...]
     zones: tuple[Zone, ...]
+    #: Maker's hard-landing rule: its name, or (``*.toml``) a file in the same folder.
+    makers_rule: str | None = None
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Files of the aircraft's folder besides the definition that decide an assessment."""
+        rule = self.makers_rule
+        own = (rule,) if rule is not None and rule.endswith(".toml") else ()
+        return (self.bulk_data, *own)
 
     @property
     def groups(self) -> tuple[MassGroup, ...]:

@@ -296,6 +296,8 @@ class VerdictSection(Section):
     overweight_factor: Annotated[float, Field(gt=0, le=1)]  #: on both above maximum landing mass
     roll_limit_deg: Annotated[float, Field(gt=0, le=45)]  #: at a contact, from here INSPECT
     nose_first: Literal["NORMAL", "FIRM", "INSPECT", "HARD"]  #: least verdict, nose gear first
+    #: maker's hard-landing rule: one of the program's by name, or a file (*.toml) in this folder
+    makers_rule: Annotated[str, Field(pattern=r"^[\w-][\w.-]{0,99}$")] | None = None
     source: Text = "not stated"
 
     @model_validator(mode="after")

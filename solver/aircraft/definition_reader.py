@@ -36,26 +36,26 @@ def load_definition(folder: Path) -> values.AircraftDefinition:
     try:
         checked = file.DefinitionFile.model_validate(document)
     except ValidationError as error:
-        raise ModelError(f"{path}: " + "; ".join(_problems(error))) from error
+        raise ModelError(f"{path}: " + "; ".join(problems(error))) from error
     try:
         return _definition(checked)
     except ModelError as error:
         raise ModelError(f"{path}: {error}") from error
 
 
-def content_hash(folder: Path, bulk_data: str) -> str:
-    """SHA-256 over definition and bulk data: everything that decides an assessment.
+def content_hash(folder: Path, *files: str) -> str:
+    """SHA-256 over the definition and ``files``: everything that decides an assessment.
 
-    The digests of the two files are hashed, so that no byte can move from one to the other unseen.
+    The digests of the files are hashed, so that no byte can move from one to the other unseen.
     """
     digests = [
         hashlib.sha256((folder / name).read_bytes()).digest()
-        for name in (values.DEFINITION_FILE, bulk_data)
+        for name in (values.DEFINITION_FILE, *files)
     ]
     return hashlib.sha256(b"".join(digests)).hexdigest()
 
 
-def _problems(error: ValidationError) -> list[str]:
+def problems(error: ValidationError) -> list[str]:
     """One line for each finding: the key, what is allowed and what stands there."""
     lines = []
     for finding in error.errors(include_url=False):
@@ -128,6 +128,7 @@ def _definition(checked: file.DefinitionFile) -> values.AircraftDefinition:
             for material in checked.materials
         ),
         zones=tuple(_zone(zone) for zone in checked.zones),
+        makers_rule=checked.verdict.makers_rule,
     )
 
 

@@ -26,7 +26,8 @@ SEVERITY = {
 MASS_ROUNDING = 1e-4
 
 
-def _is_overweight(definition: AircraftDefinition, mass: float) -> bool:
+def is_overweight(definition: AircraftDefinition, mass: float) -> bool:
+    """Whether a mass [kg] is above the maximum landing mass."""
     return mass > definition.masses.maximum_landing * (1.0 + MASS_ROUNDING)
 
 
@@ -76,7 +77,7 @@ def judge(
 def _graded(definition: AircraftDefinition, mass: float, utilisation: float) -> Verdict:
     """Verdict that a utilisation gives; above the landing mass the lower thresholds come down."""
     thresholds = definition.verdict
-    factor = thresholds.overweight_factor if _is_overweight(definition, mass) else 1.0
+    factor = thresholds.overweight_factor if is_overweight(definition, mass) else 1.0
     if utilisation > 1.0:
         return Verdict.HARD
     if utilisation >= thresholds.inspect_utilisation * factor:
@@ -172,7 +173,7 @@ def _conditions(
                 ),
                 verdict=Verdict.INSPECT,
             )
-    if _is_overweight(definition, mass):
+    if is_overweight(definition, mass):
         limit = definition.masses.maximum_landing
         yield Reason(
             code="overweight",

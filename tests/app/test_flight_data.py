@@ -63,6 +63,17 @@ class TestPost:
         assert answer["state"] == "assessed"
         assert answer["result"]["verdict"] != "UNDETERMINED", answer
 
+    def test_its_recorded_peaks_are_held_against_the_makers_rule(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        location = post(service, long_form(landing.window), frame=FRAME).headers["location"]
+        service.work()
+        rule = service.get(location).json()["result"]["makers_rule"]
+        findings = {finding["criterion"]: finding for finding in rule["findings"]}
+        for axis, least in (("normal", 1.0), ("lateral", -1.0)):
+            assert findings[f"{axis} load factor"]["value"] > least
+            assert findings[f"{axis} load factor"]["status"] in ("passed", "exceeded")
+
     def test_the_same_file_is_the_same_landing(
         self, service: Service, landing: SyntheticLanding
     ) -> None:

@@ -24,6 +24,7 @@ VERDICT: dict[str, str | float] = {
     "overweight_factor": 0.95,
     "roll_limit_deg": 6.0,
     "nose_first": "INSPECT",
+    "makers_rule": NAME,
 }
 
 

@@ -163,3 +163,25 @@ class TestContentHash:
         (tmp_path / "definition.toml").write_bytes(b"a")
         (tmp_path / "airframe.bdf").write_bytes(b"bc")
         assert content_hash(tmp_path, "airframe.bdf") != before
+
+
+class TestMakersRule:
+    def test_is_optional(self, tmp_path):
+        assert changed(tmp_path).makers_rule == "ebj-19"
+        assert changed(tmp_path, ('makers_rule = "ebj-19"\n', "")).makers_rule is None
+
+    def test_a_file_of_the_folder_is_part_of_the_content_hash(self, tmp_path):
+        definition = changed(tmp_path, ('"ebj-19"', '"own.toml"'))
+        assert definition.files == ("airframe.bdf", "own.toml")
+        assert changed(tmp_path).files == ("airframe.bdf",)
+        (tmp_path / "airframe.bdf").write_text("CEND")
+        hashes = set()
+        for text in ("a", "b"):
+            (tmp_path / "own.toml").write_text(text)
+            hashes.add(content_hash(tmp_path, *definition.files))
+        assert len(hashes) == 2
+
+    @pytest.mark.parametrize("name", ["../own.toml", "a/b", "", ".hidden"])
+    def test_no_name_leads_out_of_the_folder(self, tmp_path, name):
+        with pytest.raises(ModelError, match=r"verdict\.makers_rule"):
+            changed(tmp_path, ('"ebj-19"', f'"{name}"'))
