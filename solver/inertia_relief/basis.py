@@ -10,6 +10,7 @@ Bai, "Krylov subspace techniques for reduced-order modeling", 2002 (moment match
 """
 
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -41,17 +42,18 @@ _SHIFT_FREQUENCY = 0.5
 class BasisSettings:
     """What goes into a reduced basis; part of the key under which a model is cached."""
 
-    modes: int = 100  #: elastic modes of each mass state
-    #: Mass states: fills repeated over the groups, all alike or some full where others are empty.
-    fills: tuple[tuple[float, ...], ...] = (
-        (0.5,), (0.0,), (1.0,), (0.0, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0), (0.0, 1.0), (1.0, 0.0),
-    )  # fmt: skip
+    modes: int = 240  #: elastic modes of the middle mass state
+    mode_tolerance: float = 1e-2  #: share of a mode's change by a group's mass that may be dropped
     residual_order: int = 2  #: vectors of each load: 1 static response, 2 and more Krylov
     cutoff_frequency: float = 100.0  #: where the terms of the expansion are compared [Hz]
-    mode_tolerance: float = 1e-2  #: share of a further mass state's mode that may be dropped
     static_tolerance: float = 1e-3  #: share of a load's own static response that may be dropped
     krylov_tolerance: float = 1e-3  #: the same of later terms, of the strongest load at its place
-    harmonic_frequencies: tuple[float, ...] = (110.0, 150.0)  #: beyond the modes [Hz]
+    harmonic_frequencies: tuple[float, ...] = (100.0, 125.0, 160.0, 220.0)  #: beyond the modes [Hz]
+    #: Mass states of the harmonic responses: fills repeated over the groups, all alike or some full
+    #: where others are empty.
+    harmonic_fills: tuple[tuple[float, ...], ...] = (
+        (0.5,), (0.0,), (1.0,), (0.0, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0),
+    )  # fmt: skip
     harmonic_tolerance: float = 2e-3  #: the same of the response at those frequencies
 
 
@@ -140,13 +142,14 @@ def build_basis(
     """K-orthonormal reduced basis (n, m), mean-axis with respect to the middle mass state.
 
     The response to a load of circular frequency w is x1 + w^2 x2 + w^4 x3 + ..., with x1 its
-    inertia-relief solution and K x(j+1) = M x(j).  Modes come first; of every term only what the
-    basis lacked before it goes on to the next one.  Every x1 counts by the share of its own strain
+    inertia-relief solution and K x(j+1) = M x(j).  Modes come first, with how each changes as a
+    group's mass comes or goes; of every term only what the basis lacked before it goes on to the
+    next one.  Every x1 counts by the share of its own strain
     energy that is missing.  Later terms are taken at the cut-off frequency and under the loads of a
     hard landing (`_amplitudes`), and compared with the strongest static response at the same place:
     a pin, the air loads, the inertia of the structure or of a mass group.  The undamped harmonic
-    response (K - w^2 M)^-1 f at a few frequencies beyond the modes is weighed alike: small stiff
-    parts beside the fittings ring there.
+    response (K - w^2 M)^-1 f at a few frequencies beyond the modes, in several mass states, is
+    weighed alike: small stiff parts beside the fittings and under the payload ring there.
 
     Parameters
     ----------
@@ -157,21 +160,23 @@ def build_basis(
     """
     middle = free_body(structure, mass_state(base, groups))
     stiffness = structure.stiffness
+    relief = inertia_relief(middle)
+    progress("elastic modes", 0.0)
+    frequencies, shapes = elastic_modes(middle, settings.modes)
+    progress("elastic modes", 0.5)
     basis = np.zeros((structure.n_free, 0))
-    for index, fill in enumerate(settings.fills):
-        progress("elastic modes", index / len(settings.fills))
-        body = free_body(structure, mass_state(base, groups, fill))
-        frequencies, shapes = elastic_modes(body, settings.modes)
-        shapes = middle.mean_axis(shapes / frequencies)
-        basis = extended(stiffness, basis, shapes, settings.mode_tolerance)
-    progress("elastic modes", 1.0)
+    basis = extended(stiffness, basis, shapes / frequencies, settings.mode_tolerance)
+    for index, group in enumerate(groups):
+        # full or empty instead of half full: the static response to the inertia of what differs
+        change = relief.displacement(0.5 * (group.mass_matrix() @ (shapes * frequencies)))
+        basis = extended(stiffness, basis, change, settings.mode_tolerance)
+        progress("elastic modes", 0.5 + 0.5 * (index + 1) / len(groups))
 
     origin = middle.centre_of_gravity
     inertial = [part.rigid_load_shapes(origin) for part in (base, *groups)]
     loads = np.hstack([applied, *inertial])
     amplitudes, places = _amplitudes(applied.shape[1] // 6, len(inertial), middle.total_mass)
     acting = _acts(middle, loads)
-    relief = inertia_relief(middle)
     loads = loads[:, acting] * amplitudes[acting]
     term = relief.displacement(loads)
     norms, places = energy_norms(stiffness, term), places[acting]
@@ -187,9 +192,11 @@ def build_basis(
         else:
             basis = extended(stiffness, basis, term / strongest, settings.krylov_tolerance)
     progress("residual vectors", 1.0)
-    for index, frequency in enumerate(settings.harmonic_frequencies):
-        progress("harmonic vectors", index / len(settings.harmonic_frequencies))
-        term = harmonic_response(middle, loads, frequency)
+    states = list(product(settings.harmonic_frequencies, settings.harmonic_fills))
+    for index, (frequency, fills) in enumerate(states):
+        progress("harmonic vectors", index / len(states))
+        body = free_body(structure, mass_state(base, groups, fills))
+        term = middle.mean_axis(harmonic_response(body, loads, frequency))
         basis = extended(stiffness, basis, term / strongest, settings.harmonic_tolerance)
     progress("harmonic vectors", 1.0)
     # as modes of the middle state, slow ones last: any loading's motion is then concentrated
