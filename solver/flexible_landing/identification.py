@@ -26,6 +26,10 @@ from solver.errors import ModelError
 from solver.flexible_landing.stations import Station, carried, wrench_transfer
 
 
+#: Axial flexibility over the lesser of the transverse ones, where it cannot be told.
+_STIFF = 1e-2
+
+
 @dataclass(frozen=True, slots=True)
 class BayLoads:
     """Static load cases of one bay at its middle, structural axes; k cases."""
@@ -120,6 +124,10 @@ def bay_section(inner: Station, outer: Station, loads: BayLoads) -> BaySection:
     together, alone = np.diag(local.flexibility()), local.diagonal()
     # A component that hardly loads this bay may come out negative by itself.
     values = np.where(alone > 0.0, alone, together)
+    if values[0] <= 0.0 and np.all(values[1:] > 0.0):
+        # Axial force in a swept box comes with bending whose motion along the axis outweighs its
+        # own: it cannot be told, and is small. The bay does not give way along itself.
+        values[0] = _STIFF * min(values[1], values[2])
     if not np.all(values > 0.0):
         raise ModelError(
             f"bay {inner.name} to {outer.name} has flexibilities {values.tolist()} in its own axes"

@@ -210,3 +210,16 @@ def test_wrench_and_motion_carried_along_do_the_same_work() -> None:
     motion, wrench, arm = (generator.standard_normal(size) for size in (6, 6, 3))
     at_arm = np.linalg.solve(wrench_transfer(arm), wrench)
     assert carried(motion, arm) @ at_arm == pytest.approx(motion @ wrench)
+
+
+def test_axial_flexibility_that_cannot_be_told_is_taken_as_small(mini: Mini) -> None:
+    """The bay answers all loads like a beam but axial ones, whose motion opposes them."""
+    stations, _ = mini_stations(mini)
+    section = np.random.default_rng(1).standard_normal((6, 12))
+    flexibility = np.array([-1e-9, 6e-9, 3e-8, 5e-8, 5e-8, 9e-9])
+    inner = stations[0]
+    # along x the bay's own axes are structural ones
+    outer = replace(stations[1], point=inner.point + np.array([0.8, 0.0, 0.0]))
+    bay = bay_section(inner, outer, BayLoads(section, flexibility[:, None] * section))
+    assert bay.axial == pytest.approx(bay.length / (1e-2 * 6e-9))
+    assert bay.torsion == pytest.approx(bay.length / 5e-8)
