@@ -28,7 +28,9 @@ MANY_MODES = 400
 #: Frequencies times these: the airframe becomes rigid.
 STIFFNESS_FACTORS = (5.0, 10.0)
 #: Lowest frequencies of the stick that must be near those of the full model, and how near.
-FREQUENCIES = ((3, 0.02), (9, 0.05))
+FREQUENCIES = ((3, 0.03), (9, 0.1))
+#: Largest difference of peak strut forces that is still called none: main gears, nose gear.
+MAIN_TOLERANCE, NOSE_TOLERANCE = 0.1, 0.15
 
 
 def strut_comparisons(all_landed: list[Landed]) -> list[Comparison]:
@@ -43,12 +45,13 @@ def strut_comparisons(all_landed: list[Landed]) -> list[Comparison]:
                     "with the rigid airframe",
                     peak(rigid),
                     peak(full),
-                    0.1,
+                    NOSE_TOLERANCE if rigid.name == "nose" else MAIN_TOLERANCE,
                     "N",
                     "two-way coupling with the modes of the full model",
                     "Lee et al. see no significant difference and give no figure; a fitting that "
                     "gives way spares the strut a few hundredths of its closing speed, which the "
-                    "oil's force feels squared",
+                    "oil's force feels squared; the forward fuselage, on which the nose gear comes "
+                    "down last, swings most",
                 )
             )
     return rows
@@ -120,7 +123,8 @@ def model_comparisons(models: Models, exact: bool) -> list[Comparison]:
                 "Hz",
                 FULL,
                 "one beam for a bay of some metre with frames, floor and joints; higher modes "
-                "deform the joints of wing, fuselage and tail, which no beam is like",
+                "deform the joints of wing, fuselage and tail, which no beam is like; what the "
+                "struts feel of it is compared further down",
             )
         )
     if exact:
