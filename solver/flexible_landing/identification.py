@@ -25,7 +25,6 @@ from solver.arrays import Array
 from solver.errors import ModelError
 from solver.flexible_landing.stations import Station, carried, wrench_transfer
 
-
 #: Axial flexibility over the lesser of the transverse ones, where it cannot be told.
 _STIFF = 1e-2
 
