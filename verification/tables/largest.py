@@ -111,9 +111,9 @@ def _nonlinear_comparison(title: str, maximum: Maximum) -> Comparison:
             TOLERANCE,
             "MPa",
             "nonlinear analysis of the same landing",
-            "the instant lies on the flank of a swing, where a small lag decides: the crests "
-            f"are {1e3 * abs(found.time - reference.time):.1f} ms apart, as axial load changes "
-            "the frequency of what bends under it, which eq (15) does not know",
+            "the instant lies on the flank of a swing, where a small difference of phase or decay "
+            f"counts; the crests are {1e3 * abs(found.time - reference.time):.0f} ms apart. Axial "
+            "load stiffens or softens what bends under it, which eq (15) does not know",
         )
     if not _is_apart(maximum):
         element = "same element" if maximum.is_same else "another element"
