@@ -2,16 +2,15 @@
 
 import hashlib
 import math
-import tomllib
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
-from pydantic import ValidationError
 
 from solver.aircraft import definition as values
 from solver.aircraft import definition_file as file
+from solver.aircraft.toml_document import read_document
 from solver.assessment import Verdict
 from solver.errors import ModelError
 from solver.gear.parameters import SpringBack, Strut, Tyre
@@ -27,16 +26,7 @@ def load_definition(folder: Path) -> values.AircraftDefinition:
         named with its value and range), or names that must differ are repeated.
     """
     path = folder / values.DEFINITION_FILE
-    try:
-        document = tomllib.loads(path.read_bytes().decode())
-    except OSError as error:
-        raise ModelError(f"{path}: cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ModelError(f"{path}: not valid TOML: {error}") from error
-    try:
-        checked = file.DefinitionFile.model_validate(document)
-    except ValidationError as error:
-        raise ModelError(f"{path}: " + "; ".join(problems(error))) from error
+    checked = read_document(path, file.DefinitionFile)
     try:
         return _definition(checked)
     except ModelError as error:
@@ -53,18 +43,6 @@ def content_hash(folder: Path, *files: str) -> str:
         for name in (values.DEFINITION_FILE, *files)
     ]
     return hashlib.sha256(b"".join(digests)).hexdigest()
-
-
-def problems(error: ValidationError) -> list[str]:
-    """One line for each finding: the key, what is allowed and what stands there."""
-    lines = []
-    for finding in error.errors(include_url=False):
-        key = ""
-        for part in finding["loc"]:
-            key += f"[{part}]" if isinstance(part, int) else f".{part}"
-        value = "" if isinstance(finding["input"], dict) else f", got {finding['input']!r}"
-        lines.append(f"{key.lstrip('.') or 'file'}: {finding['msg']}{value}")
-    return lines
 
 
 def _definition(checked: file.DefinitionFile) -> values.AircraftDefinition:

@@ -1,14 +1,11 @@
 """Reading makers' rules: files of this package by name, or one in the aircraft's own folder."""
 
-import tomllib
 from importlib import resources
 from importlib.resources.abc import Traversable
 from itertools import pairwise, product
 from pathlib import Path
 
-from pydantic import ValidationError
-
-from solver.aircraft.definition_reader import problems
+from solver.aircraft.toml_document import read_document
 from solver.assessment import Verdict
 from solver.errors import ModelError
 from solver.units import Dimension, allowed_units, from_si, to_si
@@ -65,16 +62,7 @@ def packaged_rule(name: str) -> values.MakersRule:
 
 def read_makers_rule(path: Path | Traversable) -> values.MakersRule:
     """Read a rule file; raises `ModelError` as `load_makers_rule` does."""
-    try:
-        document = tomllib.loads(path.read_bytes().decode())
-    except OSError as error:
-        raise ModelError(f"{path}: cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ModelError(f"{path}: not valid TOML: {error}") from error
-    try:
-        checked = file.RuleFile.model_validate(document)
-    except ValidationError as error:
-        raise ModelError(f"{path}: " + "; ".join(problems(error))) from error
+    checked = read_document(path, file.RuleFile)
     try:
         return _rule(path.name.removesuffix(".toml"), checked)
     except ModelError as error:
