@@ -28,8 +28,8 @@ Num. Meth. Eng. 36, 1993, 1859-1883).  Rotations are quadratic along the sides; 
 middle of a side follows from w, from the corner rotations and from a constant shear strain along
 the side, in the ratio phi = 12 D_b / (D_s l^2) of bending to shear.  Thin shells give the discrete
 Kirchhoff triangle DKT (J. L. Batoz, K. J. Bathe, L. W. Ho, Int. J. Num. Meth. Eng. 15, 1980,
-1771-1812).  Next to quadrilaterals it passes the bending patch test up to the order of (t/l)^2,
-as the two carry twist along a side differently.  With shear left out, Raasch's hook stays 4.5 %
+1771-1812).  Quadrilaterals carry bending and twist along a common side alike (`plate_sides`), so
+that patches of both bend exactly.  With shear left out, Raasch's hook stays 4.5 %
 too stiff.
 
 Local axes: e1 along side 1-2, e3 the normal.

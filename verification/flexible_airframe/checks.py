@@ -140,7 +140,7 @@ def model_comparisons(models: Models, exact: bool) -> list[Comparison]:
                 1e-3,
                 "Hz",
                 "eigenvalues of the full matrices at this loading",
-                "the basis holds the modes of three other mass states",
+                "the basis holds the modes of another mass state and how they change with it",
             )
         )
     return rows
