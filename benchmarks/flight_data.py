@@ -21,8 +21,8 @@ from solver.flight_data.frame_file import packaged_frame
 from solver.flight_data.geometry import Geometry, aircraft_geometry
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import Reconstruction, reconstruct
-from solver.flight_data.touchdown import COMPONENTS
 from solver.landing.aircraft import Aerodynamics, LandingAircraft
+from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
 
 FRAMES = ("737-3c", "737-7", "a330", "business-jet-8", "business-jet-16")
 EXAMPLE = Path(__file__).parents[1] / "examples" / "landing_level_10fps.json"
@@ -83,12 +83,14 @@ class Score:
         self.tally("time_s").add(first.time, first.time_sd)
         self.late += abs(first.time) > 0.1
         state, contact = first.state, landing.contact
-        truths = {name: getattr(contact, name, contact.lift.fraction) for name in COMPONENTS}
-        errors = [getattr(state, name).value - truths[name] for name in COMPONENTS]
-        for name, error in zip(COMPONENTS, errors, strict=True):
+        truths = {
+            name: getattr(contact, name, contact.lift.fraction) for name in CONTACT_COMPONENTS
+        }
+        errors = [getattr(state, name).value - truths[name] for name in CONTACT_COMPONENTS]
+        for name, error in zip(CONTACT_COMPONENTS, errors, strict=True):
             self.tally(name).add(error, getattr(state, name).sd)
         self.joint.append(
-            float(errors @ np.linalg.solve(state.covariance, errors)) / len(COMPONENTS)
+            float(errors @ np.linalg.solve(state.covariance, errors)) / len(CONTACT_COMPONENTS)
         )
         for wheel in geometry.wheels:
             true = landing.gear_sink_rate(wheel.position)

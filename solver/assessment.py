@@ -5,6 +5,7 @@ from enum import StrEnum
 
 from solver.arrays import Array, IntArray
 from solver.landing.contact import Contact
+from solver.landing.contact_uncertainty import ContactUncertainty
 from solver.landing.history import LandingHistory
 from solver.recorded import RecordedContact
 
@@ -41,6 +42,7 @@ class TouchdownRecord:
     payload: dict[str, float] = field(default_factory=dict)  #: bay name to mass [kg]
     missing: tuple[str, ...] = ()  #: names of what the record lacks for a verdict
     recorded: tuple[RecordedContact, ...] = ()  #: every contact, with unknown state or without
+    uncertainties: tuple[ContactUncertainty, ...] = ()  #: of each of `contacts`, or empty: not said
 
 
 @dataclass(frozen=True, slots=True)

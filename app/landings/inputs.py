@@ -5,6 +5,7 @@ from typing import Any
 
 from solver.assessment import TouchdownRecord
 from solver.landing.contact import Contact, Lift, LiftModel
+from solver.landing.contact_uncertainty import ContactUncertainty
 from solver.recorded import RecordedContact, RecordedPeak
 
 
@@ -18,10 +19,17 @@ def from_json(stored: dict[str, Any]) -> TouchdownRecord:
     )
     # Landings stored by earlier versions carry no recorded peaks.
     recorded = tuple(_recorded(contact) for contact in stored.get("recorded", ()))
-    missing = tuple(stored["missing"])
-    return TouchdownRecord(
-        **{**stored, "contacts": contacts, "missing": missing, "recorded": recorded}
+    uncertainties = tuple(
+        ContactUncertainty(tuple(tuple(row) for row in each["covariance"]))
+        for each in stored.get("uncertainties", ())
     )
+    fields = {
+        "contacts": contacts,
+        "missing": tuple(stored["missing"]),
+        "recorded": recorded,
+        "uncertainties": uncertainties,
+    }
+    return TouchdownRecord(**{**stored, **fields})
 
 
 def _lift(stored: dict[str, Any]) -> Lift:

@@ -10,6 +10,7 @@ from solver.flight_data.geometry import Geometry
 from solver.flight_data.lever import rise_rate
 from solver.flight_data.vertical_course import VerticalCourse
 from solver.frames import body_structural
+from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
 from solver.landing.records import GRAVITY
 
 
@@ -19,20 +20,6 @@ class Estimate:
 
     value: float
     sd: float
-
-
-#: Order of the rows of `TouchdownState.covariance`.
-COMPONENTS = (
-    "sink_rate",
-    "pitch",
-    "roll",
-    "drift",
-    "ground_speed",
-    "pitch_rate",
-    "roll_rate",
-    "yaw_rate",
-    "lift_fraction",
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +36,7 @@ class TouchdownState:
     roll_rate: Estimate  #: [rad/s]
     yaw_rate: Estimate  #: [rad/s]
     lift_fraction: Estimate  #: lift over weight just before the contact
-    covariance: Array  #: (9, 9) in the order of `COMPONENTS`
+    covariance: Array  #: (9, 9) in the order of `CONTACT_COMPONENTS`
     assumed: tuple[str, ...]  #: components that no channel speaks of
 
 
@@ -146,7 +133,7 @@ def touchdown_state(
             lift.sd**2,
         ]
     )
-    at = {name: index for index, name in enumerate(COMPONENTS)}
+    at = {name: index for index, name in enumerate(CONTACT_COMPONENTS)}
     for name, slope in zip(("pitch_rate", "roll_rate"), slopes, strict=True):
         covariance[at["sink_rate"], at[name]] = slope * covariance[at[name], at[name]]
         covariance[at[name], at["sink_rate"]] = covariance[at["sink_rate"], at[name]]

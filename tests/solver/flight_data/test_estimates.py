@@ -18,10 +18,10 @@ from solver.flight_data.motion import Motion
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import Reconstruction, reconstruct
 from solver.flight_data.recorder import Surroundings, record
-from solver.flight_data.touchdown import COMPONENTS
 from solver.flight_data.window import Channel, Window
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact
+from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
 from solver.landing.simulate import SimulationOptions, simulate_landing
 
 Fleet = list[tuple[str, SyntheticLanding]]
@@ -64,12 +64,12 @@ def test_normalised_error_squared_of_the_state_averages_one(
     squared = []
     for landing, answer in answers:
         state = answer.contacts[0].state
-        error = [getattr(state, name).value - truth(landing, name) for name in COMPONENTS]
-        squared.append(error @ np.linalg.solve(state.covariance, error) / len(COMPONENTS))
+        error = [getattr(state, name).value - truth(landing, name) for name in CONTACT_COMPONENTS]
+        squared.append(error @ np.linalg.solve(state.covariance, error) / len(CONTACT_COMPONENTS))
     assert 0.8 < np.mean(squared) < 1.25
 
 
-@pytest.mark.parametrize("component", COMPONENTS)
+@pytest.mark.parametrize("component", CONTACT_COMPONENTS)
 def test_each_component_is_as_uncertain_as_stated(
     component: str, answers: list[tuple[SyntheticLanding, Reconstruction]]
 ) -> None:
