@@ -45,6 +45,9 @@ SETTLED = 0.02
 #: Share of the most used element's utilisation from which an element is watched, and what that
 #: utilisation counts at most: in a hard landing many exceed.
 WATCHED_SHARE, WATCHED_CEILING = 0.7, 1.1
+#: Utilisation below which nothing is asked of an element in a corner: where a corner is not clear,
+#: such an element is not worth watching.
+CORNER_FLOOR = 0.999 * WATCHED_SHARE * CLEAR_UTILISATION
 #: Elements that are watched at most, the most used ones.
 WATCHED_LIMIT = 256
 
@@ -112,7 +115,8 @@ def _corner_peaks(
 ) -> tuple[Array, float]:
     """Peaks (ne,) of every element [Pa] and the gears' largest utilisation in a contact's corners.
 
-    A corner that cannot be simulated is taken for one that exceeds everything.
+    Elements below `CORNER_FLOOR` are given that.  A corner that cannot be simulated is taken for
+    one that exceeds everything.
     """
     contact = sampler.nominal.record.contacts[number]
     both = corners(sampler.variables, contact, number, mirrored=mirrored)
@@ -122,7 +126,8 @@ def _corner_peaks(
     def keep(place: int, _: int, history: LandingHistory) -> Array:
         response = landing_response(reduced, landing_loads(airframe, history))
         strength = samples[place].zone_strength[airframe.element_zone]
-        peaks = find_peaks(reduced.model, response).stress / strength
+        floor = CORNER_FLOOR * airframe.allowables * strength
+        peaks = find_peaks(reduced.model, response, floor).stress / strength
         return np.append(peaks, gear_utilisations(airframe, history).max())
 
     found = [
