@@ -1,5 +1,7 @@
 """The one place where the service calls the solver."""
 
+from dataclasses import replace
+
 import solver
 from solver.assess import AssessmentModel, assess_landing, judge_by_rule
 from solver.assessment import Assessment, Reason, Timing, TouchdownRecord, Verdict
@@ -7,8 +9,12 @@ from solver.errors import SolverError
 from solver.verdict.action import combine
 
 
-def solve(model: AssessmentModel, record: TouchdownRecord) -> Assessment:
-    """Assess a landing."""
+def solve(
+    model: AssessmentModel, record: TouchdownRecord, *, propagate_uncertainty: bool = True
+) -> Assessment:
+    """Assess a landing, without its probability if its uncertainty is not to be propagated."""
+    if not propagate_uncertainty:
+        record = replace(record, uncertainties=())
     return assess_landing(model, record)
 
 

@@ -321,13 +321,13 @@ RelativeDeviation = Annotated[float, Field(ge=0, le=0.5)]
 class ScatterSection(Section):
     """[scatter]: standard deviations of what nobody records, see `solver.aircraft.scatter`."""
 
-    gas_pressure_relative_sd: RelativeDeviation = 0.03
-    strut_damping_relative_sd: RelativeDeviation = 0.05
+    gas_pressure_relative_sd: RelativeDeviation = 0.05
+    strut_damping_relative_sd: RelativeDeviation = 0.08
     tyre_stiffness_relative_sd: RelativeDeviation = 0.05
-    tyre_friction_relative_sd: RelativeDeviation = 0.1
-    lift_decay_start_sd_s: Annotated[float, Field(ge=0, le=5)] = 0.15
-    lift_decay_time_relative_sd: RelativeDeviation = 0.2
-    residual_lift_fraction_sd: Annotated[float, Field(ge=0, le=0.5)] = 0.05
+    tyre_friction_relative_sd: RelativeDeviation = 0.15
+    lift_decay_start_sd_s: Annotated[float, Field(ge=0, le=5)] = 0.125
+    lift_decay_time_relative_sd: RelativeDeviation = 0.25
+    residual_lift_fraction_sd: Annotated[float, Field(ge=0, le=0.5)] = 0.08
     structural_damping_relative_sd: RelativeDeviation = 0.25
     allowable_relative_sd: Annotated[float, Field(ge=0, le=0.3)] = 0.0
     allowable_basis: Literal["limit", "A", "B"] = "limit"

@@ -1,7 +1,7 @@
 """How much an aircraft differs from its definition at a landing that nobody measured.
 
-Standard deviations, relative ones as shares of the defined value.  The defaults of the definition
-file are assumed, of the size of servicing tolerances and of what tyres and runways vary by; an
+Standard deviations, relative ones as shares of the defined value.  Where a source is named the
+default of the definition file follows from it; the others are assumptions of the usual size, and an
 operator with records of his own should state his.
 """
 
@@ -33,11 +33,14 @@ class AllowableBasis(StrEnum):
 class Scatter:
     """Standard deviations of what no record tells."""
 
-    gas_pressure: float  #: relative, of every strut on its own
-    strut_damping: float  #: relative, orifices and seal friction, of every strut on its own
-    tyre_stiffness: float  #: relative, of every gear's tyres on their own
-    tyre_friction: float  #: relative, of all tyres together: it is the runway's
-    lift_decay_start: float  #: [s]
+    #: Relative, of every strut on its own: servicing within some 5 %, other temperatures since.
+    gas_pressure: float
+    #: Relative, orifices and seal friction, of every strut on its own: discharge coefficients of
+    #: 0.8 to 0.9 give 12 % from end to end (Milwitzky and Cook, NACA Report 1154, 1953).
+    strut_damping: float
+    tyre_stiffness: float  #: relative, of every gear's tyres on their own: inflation and wear
+    tyre_friction: float  #: relative, of all tyres together: it is the runway's, dry to damp
+    lift_decay_start: float  #: when the spoilers come out [s]
     lift_decay_time: float  #: relative
     residual_lift_fraction: float  #: of the weight
     structural_damping: float  #: relative

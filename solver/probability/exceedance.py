@@ -24,6 +24,7 @@ from solver.landing.aircraft import LandingAircraft
 from solver.landing.batch import simulate_landings
 from solver.landing.history import LandingHistory
 from solver.landing.simulate import SimulationOptions
+from solver.probability.corner import corners
 from solver.probability.loadings import CENTRE, loading_points
 from solver.probability.variables import LandingVariables, Sample
 from solver.probability.watched_stress import WatchedRows, WatchedStress, watch, watched_stress
@@ -34,7 +35,7 @@ from solver.verdict.gear_loads import gear_loads
 #: and the side loads of that are none of the touchdown's.
 SAMPLE_OPTIONS = SimulationOptions(output_interval=2e-3, time_limit=2.5)
 #: Largest share by which the samples' coarser path may be put right.
-LARGEST_CORRECTION = 0.03
+LARGEST_CORRECTION = 0.01
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +118,11 @@ class LandingSampler:
             return self.nominal.reduced
         return assemble(self._model, self._points.factors[point])
 
+    def corners(self, number: int, *, mirrored: bool = False) -> list[Array]:
+        """List a contact's corners as standard normal variables (count,), stress first."""
+        contact = self.nominal.record.contacts[number]
+        return list(corners(self.variables, contact, number, mirrored=mirrored))
+
     def watch(self, elements: IntArray, contacts: Sequence[int]) -> "WatchedLanding":
         """Prepare the stress of some elements in samples of some contacts."""
         return WatchedLanding(self, elements, contacts)
@@ -134,17 +140,24 @@ class WatchedLanding:
         self.rows: WatchedRows = watch(nominal.reduced.model, elements)
         self.allowables = airframe.allowables[self.rows.elements]
         self.zones = airframe.element_zone[self.rows.elements]
-        as_recorded = Sample.as_recorded(nominal.record.contacts, airframe.definition)
         loads: dict[int, LandingLoads] = {}
         gears: dict[int, Array] = {}
+        self._examples: list[LandingLoads] = []
 
-        def keep(_: int, number: int, history: LandingHistory) -> Array:
-            loads[number] = landing_loads(airframe, history)
-            gears[number] = gear_utilisations(airframe, history)
-            return gears[number]
+        def keep(place: int, number: int, history: LandingHistory) -> Array:
+            example = landing_loads(airframe, history)
+            self._examples.append(example)
+            if place == 0:
+                loads[number], gears[number] = example, gear_utilisations(airframe, history)
+            return example.time
 
-        sampler.simulate([as_recorded], self.contacts, keep)
-        self._examples = list(loads.values())
+        for number in self.contacts:
+            # A level landing's own motion would say that nothing unsymmetrical matters.
+            far = [sampler.variables.sample(z) for z in sampler.corners(number)]
+            recorded = Sample.as_recorded(nominal.record.contacts, airframe.definition)
+            sampler.simulate([recorded, *far], [number], keep, point=CENTRE)
+        used = nominal.stress[:, self.rows.elements] / self.allowables
+        self._largest = float(used[list(self.contacts)].max())
         self._stress = {CENTRE: self._at(nominal.reduced)}
         self._corrections: dict[int, tuple[Array, Array]] = {}
         for number, example in loads.items():
@@ -155,7 +168,7 @@ class WatchedLanding:
             )
 
     def _at(self, loading: ReducedLoading) -> WatchedStress:
-        return watched_stress(loading, self.rows, self.allowables, self._examples)
+        return watched_stress(loading, self.rows, self.allowables, self._examples, self._largest)
 
     def utilisations(self, samples: Sequence[Sample]) -> Utilisations:
         """Simulate samples and search their peaks."""

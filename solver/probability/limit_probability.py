@@ -6,7 +6,8 @@
    far above all of them: of any unimodal distribution at most 4 / (9 (1 + k^2)) lies beyond k
    standard deviations (Vysochanskij and Petunin, "Justification of the 3 sigma rule for unimodal
    distributions", Theory of Probability and Mathematical Statistics 21, 1980, one tail).
-3. If not, `REPLICATES` of that size are taken together.
+3. If not, `REPLICATES` of that size are taken together; fewer, but `LEAST_REPLICATES`, on a machine
+   on which that takes longer than `TIME_BUDGET`, so that a slow answer does not become none.
 
 All samples of a landing vary its contacts together.  It exceeds if any watched element or gear does
 in any contact.
@@ -14,6 +15,7 @@ in any contact.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from time import perf_counter
 
 import numpy as np
 
@@ -26,7 +28,7 @@ from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import landing_response
 from solver.landing.history import LandingHistory
-from solver.probability.corner import BOUND, CLEAR_UTILISATION, corners
+from solver.probability.corner import BOUND, CLEAR_UTILISATION
 from solver.probability.estimate import estimate
 from solver.probability.exceedance import (
     LandingSampler,
@@ -39,7 +41,9 @@ from solver.probability.loadings import CENTRE
 from solver.probability.normals import seed_of, sobol_normals
 
 #: Samples of a replicate, and replicates.
-FIRST, REPLICATES = 32, 8
+FIRST, REPLICATES, LEAST_REPLICATES = 32, 8, 2
+#: After which no replicate is begun that is not needed [s].
+TIME_BUDGET = 10.0
 #: Largest probability at which the first replicate settles the matter.
 SETTLED = 0.02
 #: Share of the most used element's utilisation from which an element is watched, and what that
@@ -118,9 +122,7 @@ def _corner_peaks(
     Elements below `CORNER_FLOOR` are given that.  A corner that cannot be simulated is taken for
     one that exceeds everything.
     """
-    contact = sampler.nominal.record.contacts[number]
-    both = corners(sampler.variables, contact, number, mirrored=mirrored)
-    samples = [sampler.variables.sample(normals) for normals in both]
+    samples = [sampler.variables.sample(z) for z in sampler.corners(number, mirrored=mirrored)]
     airframe, reduced = sampler.airframe, sampler.nominal.reduced
 
     def keep(place: int, _: int, history: LandingHistory) -> Array:
@@ -156,22 +158,26 @@ def chosen_elements(utilisations: Sequence[Array]) -> IntArray:
 
 
 def _sampled(sampler: LandingSampler, watched: WatchedLanding) -> Exceedance:
+    start = perf_counter()
     variables = sampler.variables
     seed = seed_of(repr(sampler.nominal.record))
     normals = sobol_normals(variables.count, REPLICATES, FIRST, seed)
     first = watched.utilisations([variables.sample(row) for row in normals[0]])
-    beyond = _unimodal_bound(first.largest)
+    beyond = unimodal_bound(first.largest)
     if beyond <= SETTLED:
         return Exceedance(
             LimitProbability(0.0, beyond, 0.0, beyond, FIRST, 0, ProbabilityBasis.FIRST_SAMPLES),
             {},
         )
-    others = normals[1:].reshape(-1, variables.count)
-    rest = watched.utilisations([variables.sample(row) for row in others])
-    return _estimated(watched, [first, rest])
+    parts = [first]
+    for replicate in normals[1:]:
+        if len(parts) >= LEAST_REPLICATES and perf_counter() - start > TIME_BUDGET:
+            break
+        parts.append(watched.utilisations([variables.sample(row) for row in replicate]))
+    return _estimated(watched, parts)
 
 
-def _unimodal_bound(largest: Array) -> float:
+def unimodal_bound(largest: Array) -> float:
     """Largest probability beyond 1 of a unimodal distribution with these samples' moments."""
     if not largest.max() < CLEAR_UTILISATION:
         return 1.0
@@ -182,7 +188,7 @@ def _unimodal_bound(largest: Array) -> float:
 def _estimated(watched: WatchedLanding, parts: Sequence[Utilisations]) -> Exceedance:
     airframe = np.concatenate([part.airframe for part in parts]) > 1.0
     largest = np.concatenate([part.largest for part in parts])
-    shape = (REPLICATES, FIRST)
+    shape = (len(parts), FIRST)
     whole = estimate((largest > 1.0).reshape(shape))
     zones = {}
     for zone in np.unique(watched.zones).tolist():

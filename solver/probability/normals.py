@@ -2,7 +2,8 @@
 
 Owen's scrambling (Owen, "Scrambling Sobol' and Niederreiter-Xing points", Journal of Complexity 14,
 1998, as in `scipy.stats.qmc`) keeps every replicate unbiased and independent of the others, so that
-their spread tells the error of their mean.
+their spread tells the error of their mean.  Few points fill the plane of some pairs of dimensions
+badly, and no scrambling changes which; every replicate gives other variables to those dimensions.
 """
 
 import hashlib
@@ -25,7 +26,7 @@ def sobol_normals(variables: int, replicates: int, size: int, seed: int) -> Arra
     Parameters
     ----------
     variables : int
-        Standard normal variables; the first ones are spread best.
+        Standard normal variables.
     replicates : int
         Independent scrambles.
     size : int
@@ -36,11 +37,11 @@ def sobol_normals(variables: int, replicates: int, size: int, seed: int) -> Arra
     -------
     (replicates, size, variables) array
     """
-    streams = np.random.SeedSequence(seed).spawn(replicates)
-    points = [
-        qmc.Sobol(variables, scramble=True, rng=np.random.default_rng(stream)).random(size)
-        for stream in streams
-    ]
+    points = []
+    for stream in np.random.SeedSequence(seed).spawn(replicates):
+        rng = np.random.default_rng(stream)
+        sobol = qmc.Sobol(variables, scramble=True, rng=rng).random(size)
+        points.append(sobol[:, rng.permutation(variables)])
     # A scrambled point may be zero to the last of its 30 bits, which has no finite normal.
     smallest = 2.0**-32
     normals: Array = ndtri(np.clip(np.stack(points), smallest, 1.0 - smallest))

@@ -23,9 +23,9 @@ from solver.inertia_relief.reduced import ReducedModel
 from solver.probability.watched_kernels import fill_departures, fill_peaks
 
 #: Share of the largest stress that the modes which follow their loads may leave out together.
-NEGLIGIBLE = 0.02
+NEGLIGIBLE = 0.05
 #: Share of the largest stress that the patterns may leave out of any element's.
-LEFT_OUT = 0.004
+LEFT_OUT = 0.01
 #: Elements whose rows are held at once.
 _ELEMENTS_AT_ONCE = 32
 
@@ -96,7 +96,11 @@ def watch(model: ReducedModel, elements: IntArray) -> WatchedRows:
 
 
 def watched_stress(
-    loading: ReducedLoading, watched: WatchedRows, allowables: Array, examples: list[LandingLoads]
+    loading: ReducedLoading,
+    watched: WatchedRows,
+    allowables: Array,
+    examples: list[LandingLoads],
+    largest: float,
 ) -> WatchedStress:
     """Choose the modes that matter in ``examples`` and gather what they cause.
 
@@ -107,6 +111,10 @@ def watched_stress(
     ----------
     allowables : (n,) array
         Of the watched elements [Pa].
+    examples : list of LandingLoads
+        Landings like those to come; what does not move in any of them is not seen later.
+    largest : float
+        Utilisation of the most used element, of which shares may be left out.
     """
     model = loading.model
     shapes = np.hstack([model.applied, loading.inertia]).T @ loading.modes_with_rigid
@@ -114,7 +122,7 @@ def watched_stress(
     weights = np.linalg.norm(stress.reshape(len(allowables), 6, -1), axis=1)
     weights = (weights / allowables[:, None]).max(axis=0)
     frequency = loading.circular_frequency
-    farthest, highest, largest = np.zeros(model.size), np.zeros(len(shapes)), 0.0
+    farthest, highest = np.zeros(model.size), np.zeros(len(shapes))
     for loads in examples:
         amplitudes = load_amplitudes(loads, model.origin)
         highest = np.maximum(highest, np.abs(amplitudes).max(axis=0))
@@ -122,7 +130,6 @@ def watched_stress(
         departure = np.empty(modal.shape, dtype=np.float32)
         _depart(frequency, model.damping.modal_ratio(frequency), loads, modal, departure)
         farthest = np.maximum(farthest, np.abs(departure).max(axis=0))
-        largest = max(largest, float((weights * np.abs(modal + departure)).max()))
     parts = weights * farthest
     order = np.argsort(parts)
     left_out = np.sqrt(np.cumsum(parts[order] ** 2))

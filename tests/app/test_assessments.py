@@ -35,7 +35,11 @@ class TestGet:
 
     def test_stored_inputs_give_the_same_answer_again(self, service: Service) -> None:
         result = service.assessed(record(8.0))["result"]
-        again = solve(service.models.get("mini"), inputs.from_json(result["inputs"]))
+        again = solve(
+            service.models.get("mini"),
+            inputs.from_json(result["inputs"]),
+            propagate_uncertainty=service.settings.propagate_uncertainty,
+        )
         assert again.worst_utilisation == result["worst_utilisation"]
         assert again.verdict == result["verdict"]
 
