@@ -49,9 +49,8 @@ SETTLED = 0.02
 #: Share of the most used element's utilisation from which an element is watched, and what that
 #: utilisation counts at most: in a hard landing many exceed.
 WATCHED_SHARE, WATCHED_CEILING = 0.7, 1.1
-#: Utilisation below which nothing is asked of an element in a corner: where a corner is not clear,
-#: such an element is not worth watching.
-CORNER_FLOOR = 0.999 * WATCHED_SHARE * CLEAR_UTILISATION
+#: Utilisation in a corner below which an element is not worth watching for the corner's sake.
+CORNER_FLOOR = WATCHED_SHARE
 #: Elements that are watched at most, the most used ones.
 WATCHED_LIMIT = 256
 
@@ -119,7 +118,7 @@ def _corner_peaks(
 ) -> tuple[Array, float]:
     """Peaks (ne,) of every element [Pa] and the gears' largest utilisation in a contact's corners.
 
-    Elements below `CORNER_FLOOR` are given that.  A corner that cannot be simulated is taken for
+    Elements below `CORNER_FLOOR` are given zero.  A corner that cannot be simulated is taken for
     one that exceeds everything.
     """
     samples = [sampler.variables.sample(z) for z in sampler.corners(number, mirrored=mirrored)]
@@ -129,7 +128,8 @@ def _corner_peaks(
         response = landing_response(reduced, landing_loads(airframe, history))
         strength = samples[place].zone_strength[airframe.element_zone]
         floor = CORNER_FLOOR * airframe.allowables * strength
-        peaks = find_peaks(reduced.model, response, floor).stress / strength
+        found = find_peaks(reduced.model, response, floor)
+        peaks = np.where(found.below_floor, 0.0, found.stress / strength)
         return np.append(peaks, gear_utilisations(airframe, history).max())
 
     found = [
@@ -151,8 +151,9 @@ def chosen_elements(utilisations: Sequence[Array]) -> IntArray:
     """
     score = np.zeros(len(utilisations[0]))
     for utilisation in utilisations:
-        if np.all(np.isfinite(utilisation)):
-            score = np.maximum(score, utilisation / min(utilisation.max(), WATCHED_CEILING))
+        largest = float(utilisation.max())
+        if 0.0 < largest < np.inf:
+            score = np.maximum(score, utilisation / min(largest, WATCHED_CEILING))
     order = np.argsort(-score, kind="stable")[:WATCHED_LIMIT]
     return np.sort(order[score[order] >= WATCHED_SHARE])
 

@@ -23,9 +23,9 @@ from solver.inertia_relief.reduced import ReducedModel
 from solver.probability.watched_kernels import fill_departures, fill_peaks
 
 #: Share of the largest stress that the modes which follow their loads may leave out together.
-NEGLIGIBLE = 0.05
+NEGLIGIBLE = 0.03
 #: Share of the largest stress that the patterns may leave out of any element's.
-LEFT_OUT = 0.01
+LEFT_OUT = 0.008
 #: Elements whose rows are held at once.
 _ELEMENTS_AT_ONCE = 32
 

@@ -69,7 +69,7 @@ def test_samples_are_those_of_the_full_path(mini: AssessmentModel) -> None:
         response = landing_response(nominal.reduced, landing_loads(mini.airframe, history))
         full = find_peaks(mini.reduced, response).stress / mini.airframe.allowables
         matters = full > 0.5 * full.max()
-        np.testing.assert_allclose(used[matters], full[matters], rtol=0.04)
+        np.testing.assert_allclose(used[matters], full[matters], rtol=0.05)
         assert used.max() == pytest.approx(full.max(), rel=0.01)
 
 
