@@ -15,26 +15,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_HEAD = "head.json"
+_HEAD = "model.json"
 
 
 def write_array_folder(
     folder: Path, head: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]
 ) -> None:
-    """Write ``folder``, replacing one of that name: readers see all of it or nothing."""
+    """Write ``folder`` in one step: readers see all of it or nothing.
+
+    A folder that is there with the same head is kept, so that processes that come to the same
+    arrays at the same time share those of the first; any other is replaced.
+    """
     folder.parent.mkdir(parents=True, exist_ok=True)
     draft = Path(tempfile.mkdtemp(prefix=".draft-", dir=folder.parent))
     try:
         for name, array in arrays.items():
             np.save(draft / f"{name}.npy", array)
         (draft / _HEAD).write_text(json.dumps(head, indent=1))
-        if folder.exists():
-            shutil.rmtree(folder)
         try:
             os.replace(draft, folder)
-        except OSError:  # not empty: another process has written the same meanwhile
-            if not (folder / _HEAD).exists():
-                raise
+        except OSError:  # not empty
+            if read_head(folder) == head:
+                return
+            shutil.rmtree(folder)
+            os.replace(draft, folder)
     finally:
         shutil.rmtree(draft, ignore_errors=True)
 
