@@ -13,7 +13,9 @@ from time import perf_counter
 import numpy as np
 
 from solver import __version__
-from solver.aircraft.airframe import Airframe, load_airframe
+from solver.aircraft.airframe import load_airframe
+from solver.aircraft.assessed_airframe import AssessedAirframe
+from solver.aircraft.stored_airframe import load_stored_airframe, store_airframe
 from solver.arrays import Array
 from solver.assessment import (
     Assessment,
@@ -25,7 +27,7 @@ from solver.assessment import (
     TouchdownRecord,
 )
 from solver.errors import RecordError
-from solver.inertia_relief.build import reduced_model
+from solver.inertia_relief.build import reduced_model, stored_model
 from solver.inertia_relief.loading import assemble
 from solver.inertia_relief.loads import landing_loads
 from solver.inertia_relief.peaks import find_peaks
@@ -50,7 +52,7 @@ from solver.verdict.rule_findings import apply_rule
 class AssessmentModel:
     """An aircraft ready to be assessed."""
 
-    airframe: Airframe
+    airframe: AssessedAirframe
     reduced: ReducedModel
     makers_rule: MakersRule | None = None
 
@@ -75,17 +77,25 @@ def load_assessment_model(
     folder : Path
         Holds ``definition.toml`` and the bulk data it names.
     cache : Path, optional
-        Folder of reduced models; None builds in memory.
+        Folder of stored airframes and reduced models, which processes share; None builds in
+        memory.
 
     Raises
     ------
     ModelError
         The folder cannot be used; says where and why.
     """
-    airframe = load_airframe(folder, progress)
-    # Before the reduced model: a rule that cannot be read should not cost a minute first.
-    rule = load_makers_rule(folder, airframe.definition.makers_rule)
-    reduced = reduced_model(airframe, cache, progress=progress)
+    airframe, reduced = None, None
+    if cache is not None and (airframe := load_stored_airframe(folder, cache)) is not None:
+        reduced = stored_model(airframe, cache)
+    if airframe is None or reduced is None:
+        whole = load_airframe(folder, progress)
+        # Before the reduced model: a rule that cannot be read should not cost a minute first.
+        rule = load_makers_rule(folder, whole.definition.makers_rule)
+        reduced = reduced_model(whole, cache, progress=progress)
+        airframe = whole if cache is None else store_airframe(whole, cache)
+    else:
+        rule = load_makers_rule(folder, airframe.definition.makers_rule)
     progress("compiling the kernels", 0.0)
     compile_kernels()
     progress("compiling the kernels", 1.0)
@@ -218,7 +228,7 @@ class _Clock:
 class _PeakEnvelope:
     """Largest stress of every element over the contacts added so far."""
 
-    def __init__(self, airframe: Airframe) -> None:
+    def __init__(self, airframe: AssessedAirframe) -> None:
         self._airframe = airframe
         count = len(airframe.allowables)
         self._stress = np.zeros(count)
@@ -233,7 +243,7 @@ class _PeakEnvelope:
 
     def field(self) -> PeakField:
         return PeakField(
-            element_identifiers=self._airframe.structure.model.element_identifiers,
+            element_identifiers=self._airframe.element_identifiers,
             stress=self._stress,
             utilisation=self._stress / self._airframe.allowables,
             time=self._time,

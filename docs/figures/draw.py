@@ -12,6 +12,7 @@ import matplotlib.pyplot as plt
 from app.cli.demo import EXAMPLE_AIRCRAFT
 from app.cli.progress import progress_bars
 from app.config import get_settings
+from solver.aircraft.airframe import load_airframe
 from solver.aircraft.bizjet import build_bizjet
 from solver.assess import assess_landing, load_assessment_model
 from solver.assessment import Assessment, TouchdownRecord
@@ -62,7 +63,7 @@ def main() -> None:
     assessment = assess_landing(model, record)
     assert assessment.peak_field is not None
     draw_airframe(
-        model.airframe.structure.model,
+        load_airframe(folder).structure.model,
         assessment.peak_field.stress / 1e6,
         path=FIGURES / "landing-10fps.png",
     )

@@ -1,7 +1,6 @@
 """The airframe: definition and bulk data of one aircraft put together, ready for every landing."""
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -9,19 +8,18 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from solver.aircraft.air_loads import air_load_shapes
+from solver.aircraft.assessed_airframe import AssessedAirframe
 from solver.aircraft.definition import AircraftDefinition
 from solver.aircraft.definition_reader import content_hash, load_definition
-from solver.aircraft.loading import Loading, fill_factors, find_loading
-from solver.aircraft.mass_states import LoadedGroup, MassMoments, MassStates
+from solver.aircraft.mass_states import MassMoments, MassStates, ModelledGroup
 from solver.aircraft.nastran import read_bulk_data
 from solver.aircraft.zones import element_allowables, element_centroids, element_zones
 from solver.arrays import Array, BoolArray, IntArray
 from solver.errors import ModelError
-from solver.fe.inertia import Inertia, MassProperties, combine, point_mass_inertia
+from solver.fe.inertia import Inertia, combine, point_mass_inertia
 from solver.fe.model import FiniteElementModel, PointMasses
 from solver.fe.stress import StressRecovery, build_stress_recovery
 from solver.fe.structure import Structure, build_structure
-from solver.landing.aircraft import Aerodynamics, LandingAircraft
 from solver.progress import Progress, silent
 
 #: A tank's or bay's CONM2 cards must add up to its capacity within this share.
@@ -31,44 +29,25 @@ EMPTY_MASS_TOLERANCE = 0.01
 
 
 @dataclass(frozen=True, slots=True)
-class Airframe:
-    """One aircraft: structure when empty, tanks and bays, load shapes, zones and allowables.
+class Airframe(AssessedAirframe):
+    """One aircraft with its structure: what loads, masses and stresses are computed from.
 
     ``structure.inertia`` is the operating empty airframe without the unsprung masses of the gears
     and without the CONM2 cards of tanks and bays; those are ``groups``.
     """
 
-    definition: AircraftDefinition
     structure: Structure
     recovery: StressRecovery
     pin_rows: IntArray  #: (n_pins,) node rows, in the order of the gears and their pins
     pin_loads: csr_array  #: (n_free, 6 n_pins) unit forces and moments at the pins
     air_shapes: Array  #: (n_free, 6) unit wrenches about the structural origin
-    element_zone: IntArray  #: (ne,) index into ``definition.zones``
-    allowables: Array  #: (ne,) limit allowable, von Mises [Pa]
-    centroids: Array  #: (ne, 3) [m]
-    content_hash: str  #: of definition and bulk data
-    mass_states: MassStates  #: tanks and bays, and what the aircraft weighs with them
+    modelled_groups: tuple[ModelledGroup, ...]  #: tanks, then bays
     ignored_parameters: tuple[str, ...]  #: PARAM cards of the bulk data passed over
 
     @property
-    def groups(self) -> tuple[LoadedGroup, ...]:
-        """Tanks, then bays."""
-        return self.mass_states.groups
-
-    def fill_factors(self, fuel: Mapping[str, float], payload: Mapping[str, float]) -> Array:
-        """Fill factors (n_groups,) of stated masses [kg]; see `solver.aircraft.loading`."""
-        return fill_factors(self.mass_states, fuel, payload)
-
-    def loading_for(
-        self,
-        mass: float | None = None,
-        centre_of_gravity: float | None = None,
-        fuel: Mapping[str, float] | None = None,
-        payload: Mapping[str, float] | None = None,
-    ) -> Loading:
-        """Find the loading state of a record; see `solver.aircraft.loading.find_loading`."""
-        return find_loading(self.mass_states, mass, centre_of_gravity, fuel, payload)
+    def groups(self) -> tuple[ModelledGroup, ...]:
+        """Tanks, then bays, with their lumped masses."""
+        return self.modelled_groups
 
     def inertia(self, factors: Array) -> Inertia:
         """Inertia of the loaded airframe, affine in ``factors`` (n_groups,)."""
@@ -78,37 +57,6 @@ class Airframe:
             for factor, group in zip(factors, self.groups, strict=True)
         ]
         return combine(parts)
-
-    def mass_properties(self, factors: Array) -> MassProperties:
-        """Rigid-body properties of the loaded airframe without the unsprung masses."""
-        return self.mass_states.properties(factors)
-
-    def landing_aircraft(self, factors: Array) -> LandingAircraft:
-        """Aircraft for the landing simulation: the loaded airframe as a rigid body, its gears."""
-        body = self.mass_properties(factors)
-        reference, aero = self.definition.reference, self.definition.aerodynamics
-        positions = self.structure.model.coordinates[self.pin_rows]
-        gears, first = [], 0
-        for gear in self.definition.gears:
-            last = first + len(gear.pins)
-            gears.append(gear.gear(positions[first:last]))
-            first = last
-        return LandingAircraft(
-            mass=body.mass,
-            centre_of_gravity=body.centre_of_gravity,
-            inertia=body.inertia,
-            gears=tuple(gears),
-            aerodynamics=Aerodynamics.from_coefficients(
-                area=reference.wing_area,
-                span=reference.wing_span,
-                chord=reference.mean_chord,
-                drag_coefficient=aero.drag_coefficient,
-                roll_damping_derivative=aero.roll_damping,
-                pitch_damping_derivative=aero.pitch_damping,
-                yaw_damping_derivative=aero.yaw_damping,
-                air_density=aero.air_density,
-            ),
-        )
 
 
 def load_airframe(folder: Path, progress: Progress = silent) -> Airframe:
@@ -135,27 +83,28 @@ def load_airframe(folder: Path, progress: Progress = silent) -> Airframe:
         progress("stress recovery", 0.0)
         recovery = build_stress_recovery(structure)
         progress("stress recovery", 1.0)
-        mass_states = MassStates(
-            definition,
-            MassMoments.of(structure.inertia),
-            _loaded_groups(structure, definition, loads),
-        )
+        groups = _modelled_groups(structure, definition, loads)
+        mass_states = MassStates(definition, MassMoments.of(structure.inertia), groups)
         _check_empty_mass(mass_states.empty.mass, definition)
         air_shapes = air_load_shapes(structure, definition.air_loads)
     except ModelError as error:
         raise ModelError(f"{folder}: {error}") from error
     return Airframe(
         definition=definition,
+        content_hash=identity,
+        mass_states=mass_states,
+        pin_positions=deck.model.coordinates[pin_rows],
+        element_identifiers=deck.model.element_identifiers,
+        element_corners=_element_corners(deck.model),
+        element_zone=zones,
+        allowables=allowables,
+        centroids=element_centroids(deck.model),
         structure=structure,
         recovery=recovery,
         pin_rows=pin_rows,
         pin_loads=structure.nodal_loads(pin_rows),
         air_shapes=air_shapes,
-        element_zone=zones,
-        allowables=allowables,
-        centroids=element_centroids(deck.model),
-        content_hash=identity,
-        mass_states=mass_states,
+        modelled_groups=groups,
         ignored_parameters=deck.ignored_parameters,
     )
 
@@ -196,13 +145,22 @@ def _selected(masses: PointMasses, chosen: BoolArray) -> PointMasses:
     )
 
 
-def _loaded_groups(
+def _element_corners(model: FiniteElementModel) -> IntArray:
+    return np.concatenate(
+        [
+            np.full(len(nodes), nodes.shape[1], dtype=np.int64)
+            for nodes in (model.quads.nodes, model.triangles.nodes, model.beams.nodes)
+        ]
+    )
+
+
+def _modelled_groups(
     structure: Structure, definition: AircraftDefinition, loads: list[PointMasses]
-) -> tuple[LoadedGroup, ...]:
+) -> tuple[ModelledGroup, ...]:
     groups = []
     for group, masses in zip(definition.groups, loads, strict=True):
         inertia = point_mass_inertia(structure.transformation, structure.model.coordinates, masses)
-        groups.append(LoadedGroup(group, masses, inertia, MassMoments.of(inertia)))
+        groups.append(ModelledGroup(group, MassMoments.of(inertia), masses, inertia))
     return tuple(groups)
 
 

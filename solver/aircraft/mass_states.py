@@ -53,8 +53,6 @@ class LoadedGroup:
     """A tank or payload bay of the airframe."""
 
     definition: MassGroup
-    point_masses: PointMasses  #: of the full group
-    inertia: Inertia  #: of the full group
     moments: MassMoments  #: of the full group
 
     @property
@@ -66,6 +64,14 @@ class LoadedGroup:
     def capacity(self) -> float:
         """Mass of the full group [kg]."""
         return self.moments.mass
+
+
+@dataclass(frozen=True, slots=True)
+class ModelledGroup(LoadedGroup):
+    """A tank or payload bay with its lumped masses in the model."""
+
+    point_masses: PointMasses  #: of the full group
+    inertia: Inertia  #: of the full group
 
 
 @dataclass(frozen=True, slots=True)

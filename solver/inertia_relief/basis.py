@@ -34,6 +34,8 @@ _RIGID_SHARE = 1e-4
 _NO_LOAD = 1e-9
 #: Largest residual of a harmonic response, relative to the load.
 _HARMONIC_ERROR = 1e-6
+#: Vectors, or rows of the basis, that are worked on at once: a second basis in memory is spared.
+_TOGETHER = 64
 #: The shift makes ``K - sigma M`` definite; far below the first elastic mode [Hz].
 _SHIFT_FREQUENCY = 0.5
 
@@ -200,9 +202,15 @@ def build_basis(
         basis = extended(stiffness, basis, term / strongest, settings.harmonic_tolerance)
     progress("harmonic vectors", 1.0)
     # as modes of the middle state, slow ones last: any loading's motion is then concentrated
-    turn = np.linalg.eigh(basis.T @ (middle.mass @ middle.mean_axis(basis)))[1]
-    turned: Array = basis @ turn
-    return turned
+    mass = np.empty((basis.shape[1],) * 2)
+    for first in range(0, len(mass), _TOGETHER):
+        part = slice(first, first + _TOGETHER)
+        mass[:, part] = basis.T @ (middle.mass @ middle.mean_axis(basis[:, part]))
+    turn = np.linalg.eigh(mass)[1]
+    for first in range(0, len(basis), _TOGETHER):
+        part = slice(first, first + _TOGETHER)
+        basis[part] = basis[part] @ turn
+    return basis
 
 
 def harmonic_response(body: FreeBody, loads: Array, frequency: float) -> Array:

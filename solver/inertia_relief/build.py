@@ -22,6 +22,7 @@ from solver.progress import Progress, silent
 
 if TYPE_CHECKING:
     from solver.aircraft.airframe import Airframe
+    from solver.aircraft.assessed_airframe import AssessedAirframe
     from solver.fe.inertia import Inertia
     from solver.fe.stress import StressRecovery
     from solver.fe.structure import Structure
@@ -53,6 +54,7 @@ def project(
     parts = (base, *groups)
     origin = mass_state(base, groups).rigid_body_properties().centre_of_gravity
     full = np.hstack([structure.rigid_modes(origin), basis])
+    basis = full[:, 6:]  # on a large airframe each copy takes gigabytes
     masses, operators, inertial = [], [], []
     for index, part in enumerate(parts):
         progress("projection", index / (len(parts) + 1))
@@ -87,6 +89,18 @@ def model_key(content_hash: str, settings: BasisSettings, damping: RayleighDampi
     return hashlib.sha256(f"{content_hash} {FORMAT} {values}".encode()).hexdigest()
 
 
+def stored_model(
+    airframe: "AssessedAirframe",
+    cache: Path,
+    settings: BasisSettings = BasisSettings(),  # noqa: B008 - frozen
+    damping: RayleighDamping | None = None,
+) -> ReducedModel | None:
+    """Map the reduced model of ``airframe`` from ``cache``; None if it is not there."""
+    damping = airframe_damping(airframe) if damping is None else damping
+    key = model_key(airframe.content_hash, settings, damping)
+    return load_reduced_model(_folder(cache, key), key)
+
+
 def reduced_model(
     airframe: "Airframe",
     cache: Path | None = None,
@@ -105,33 +119,35 @@ def reduced_model(
     """
     damping = airframe_damping(airframe) if damping is None else damping
     key = model_key(airframe.content_hash, settings, damping)
-    folder = None if cache is None else cache / key[:16]
-    if folder is not None:
-        stored = load_reduced_model(folder, key)
+    if cache is not None:
+        stored = stored_model(airframe, cache, settings, damping)
         if stored is not None:
             return stored
     structure = airframe.structure
     groups = tuple(group.inertia for group in airframe.groups)
     applied = applied_shapes(airframe)
-    basis = build_basis(structure, structure.inertia, groups, applied, settings, progress)
     model = project(
         structure,
         structure.inertia,
         groups,
         applied,
         airframe.recovery,
-        basis,
+        build_basis(structure, structure.inertia, groups, applied, settings, progress),
         damping,
         key,
         lambda model: reference_motions(airframe, model, progress),
         progress,
     )
-    if folder is None:
+    if cache is None:
         return model
-    model.save(folder)
-    return load_reduced_model(folder, key) or model
+    model.save(_folder(cache, key))
+    return load_reduced_model(_folder(cache, key), key) or model
 
 
-def airframe_damping(airframe: "Airframe") -> RayleighDamping:
+def _folder(cache: Path, key: str) -> Path:
+    return cache / key[:16]
+
+
+def airframe_damping(airframe: "AssessedAirframe") -> RayleighDamping:
     """Damping of the aircraft definition, held at the two frequencies of `RayleighDamping`."""
     return RayleighDamping(ratio=airframe.definition.modal_damping_ratio)

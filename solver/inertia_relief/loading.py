@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh
 
-from solver.arrays import Array
+from solver.arrays import Array, Single
 from solver.errors import ModelError
 from solver.frames import skew
 from solver.inertia_relief.modal_recursion import StepCoefficients, step_coefficients
@@ -19,14 +19,19 @@ class ReducedLoading:
     model: ReducedModel
     circular_frequency: Array  #: (m,) descending [rad/s]
     weights: Array  #: (1 + g,) one for the base, then the fill factors
-    modes: Array  #: (m, m) orthogonal, columns are modes in the model's coordinates
-    modes_with_rigid: Array  #: (6 + m, m) the same, made mean-axis for this loading
+    modes_with_rigid: Single  #: (6 + m, m) see `modes`, made mean-axis for this loading
     rate_norms: Array  #: (12, 6 + m) modal loads of unit coordinates are at most this
     inertia: Array  #: (6 + m, 12)
     centre_of_gravity: Array  #: (3,) [m]
     mass: float  #: [kg]
     gyration_radius: float  #: [m]
     rigid_transfer: Array  #: (6, 6) resultants about the origin to those about the cg
+
+    @property
+    def modes(self) -> Single:
+        """Modes in the model's coordinates, the orthogonal columns of (m, m)."""
+        modes: Single = self.modes_with_rigid[6:]
+        return modes
 
     def coefficients(self, time_step: float) -> StepCoefficients:
         """Exact recursion of every mode over ``time_step`` [s], with the model's damping."""
@@ -65,7 +70,9 @@ def assemble(model: ReducedModel, factors: Array) -> ReducedLoading:
     if not squares[0] > -len(squares) * rounding:
         raise ModelError(f"reduced mass is not positive definite at factors {factors.tolist()}")
     squared_period = np.maximum(squares.astype(np.float64), rounding)
-    modes = vectors.astype(np.float64)
+    modes = np.empty((6 + len(vectors), len(vectors)), dtype=np.float32)
+    np.matmul(follow.astype(np.float32), vectors, out=modes[:6])
+    modes[6:] = vectors
     mass = float(rigid[0, 0])
     lever = rigid[:3, 3:] / mass  # equals -skew(centre of gravity from the origin)
     centre = np.array([lever[1, 2], lever[2, 0], lever[0, 1]])
@@ -75,8 +82,7 @@ def assemble(model: ReducedModel, factors: Array) -> ReducedLoading:
     return ReducedLoading(
         model=model,
         circular_frequency=1.0 / np.sqrt(squared_period),
-        modes=modes,
-        modes_with_rigid=np.vstack([follow @ modes, modes]),
+        modes_with_rigid=modes,
         weights=weights,
         rate_norms=np.tensordot(weights, model.rate_norms, axes=1)
         + np.tensordot(weights, _through_rigid(model, follow), axes=1),

@@ -17,6 +17,7 @@ from solver.inertia_relief.motion import RigidMotion
 
 if TYPE_CHECKING:
     from solver.aircraft.airframe import Airframe
+    from solver.aircraft.assessed_airframe import AssessedAirframe
     from solver.landing.history import LandingHistory
 
 #: Largest share of the applied loads that may be out of balance; rounding is near 1e-13.
@@ -57,7 +58,7 @@ class LandingLoads:
         )
 
 
-def landing_loads(airframe: "Airframe", history: "LandingHistory") -> LandingLoads:
+def landing_loads(airframe: "AssessedAirframe", history: "LandingHistory") -> LandingLoads:
     """Turn a simulated landing into structural loads (body axes become structural axes).
 
     Raises
@@ -85,8 +86,8 @@ def landing_loads(airframe: "Airframe", history: "LandingHistory") -> LandingLoa
     )
 
 
-def _check_pins(airframe: "Airframe", history: "LandingHistory") -> None:
-    nodes = airframe.structure.model.coordinates[airframe.pin_rows]
+def _check_pins(airframe: "AssessedAirframe", history: "LandingHistory") -> None:
+    nodes = airframe.pin_positions
     pins = np.concatenate([gear.pin_positions for gear in history.gears] or [np.zeros((0, 3))])
     if pins.shape != nodes.shape:
         raise ModelError(f"the landing has {len(pins)} gear pins, the airframe {len(nodes)}")

@@ -93,7 +93,7 @@ def _square(values: Array) -> float:  # pragma: no cover - compiled
 def _advance(
     a: Array,
     b: Array,
-    load: Array,
+    load: Array | Single,
     q: Array,
     v: Array,
     p: Array,
@@ -134,7 +134,7 @@ def _advance(
 
 
 #: Writes the modal loads (last - first, m) of the samples from ``first`` before ``last``.
-LoadOf = Callable[[int, int, Array], None]
+LoadOf = Callable[[int, int, Array | Single], None]
 
 
 def add_modal_response(
@@ -167,10 +167,10 @@ def add_modal_response(
     moved, moving = np.empty((2, len(at), modes), dtype=total.dtype)
     a = np.ascontiguousarray(coefficients.displacement.T)
     b = np.ascontiguousarray(coefficients.velocity.T)
-    some = np.empty((_SAMPLES_AT_ONCE, modes))
+    some = np.empty((_SAMPLES_AT_ONCE, modes), dtype=total.dtype)
     load(0, 1, some[:1])
     # at rest: the sample before had the same load, which the displacement followed
-    q, v, p = some[0].copy(), np.zeros(modes), some[0].copy()
+    q, v, p = some[0].astype(np.float64), np.zeros(modes), some[0].astype(np.float64)
     total[0] += q
     largest = float(np.linalg.norm(q))
     if slots[0] >= 0:
@@ -202,7 +202,7 @@ def modal_response(coefficients: StepCoefficients, load: Array) -> tuple[Array, 
         Displacement, and velocity [1/s].
     """
 
-    def of(first: int, last: int, out: Array) -> None:
+    def of(first: int, last: int, out: Array | Single) -> None:
         out[:] = load[:, first:last].T
 
     displacement = np.zeros(load.T.shape)

@@ -24,12 +24,11 @@ def projected_inertia(inertia: "Inertia", basis: Array) -> tuple[Array, Array]:
     """
     size = basis.shape[1]
     motion = np.asarray(inertia.interpolation @ basis).reshape(-1, 3, size)
-    directions = [np.ascontiguousarray(motion[:, a]) for a in range(3)]
-    weighted = [inertia.scalar_mass @ direction for direction in directions]
     products = np.empty((3, 3, size, size))
-    for a in range(3):
-        for b in range(a, 3):
-            products[a, b] = directions[a].T @ weighted[b]
+    for b in range(3):
+        weighted = inertia.scalar_mass @ motion[:, b]
+        for a in range(b + 1):
+            products[a, b] = motion[:, a].T @ weighted
             products[b, a] = products[a, b].T
     rotation = np.asarray(inertia.rotary_interpolation @ basis).reshape(-1, 3, size)
     rotary = inertia.rotary

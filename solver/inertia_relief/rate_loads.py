@@ -39,6 +39,21 @@ def _products(
                 out[k, n] = coefficients[term, n] * displacement[i, n]
 
 
+@numba.njit(cache=True)
+def _columns(
+    operators: Single, weights: Single, terms: IntArray, coordinates: IntArray, out: Single
+) -> None:  # pragma: no cover - compiled
+    """Weighted sums (k, M) of some columns of several sets of operators."""
+    for k in range(len(terms)):
+        for i in range(out.shape[1]):
+            out[k, i] = 0.0
+        for part in range(len(weights)):
+            weight, column = weights[part], operators[part, terms[k], coordinates[k]]
+            if weight != 0.0:
+                for i in range(out.shape[1]):
+                    out[k, i] += weight * column[i]
+
+
 class RateLoads:
     """Pseudo loads of one landing's rates on modal motions of one loading.
 
@@ -54,12 +69,12 @@ class RateLoads:
         self, loading: ReducedLoading, coefficients: Array, negligible: float = 0.0
     ) -> None:
         self._loading = loading
-        self._modes = loading.modes_with_rigid.astype(np.float32)
+        self._modes = loading.modes_with_rigid
         self._coefficients = coefficients.astype(np.float32)
         self._negligible = negligible / 2  # half before and half after the motion is known
         self._weights = np.abs(coefficients).max(axis=1)[:, None] * loading.rate_norms
 
-    def of(self, displacement: Array | Single, velocity: Array | Single) -> Array:
+    def of(self, displacement: Array | Single, velocity: Array | Single) -> Single:
         """Modal pseudo loads (m, nt) of the modal motion (m, nt), [1/s] for the velocity."""
         moved, moving = (
             displacement.astype(np.float32, copy=False),
@@ -70,7 +85,7 @@ class RateLoads:
         fastest = _CAUTION * np.abs(self._modes @ moving[:, ::_FIRST_LOOK]).max(axis=1)
         rows = np.unique(self._significant(farthest, fastest)[1])
         if len(rows) == 0:
-            return np.zeros(displacement.shape)
+            return np.zeros(displacement.shape, dtype=np.float32)
         moved, moving = self._modes[rows] @ moved, self._modes[rows] @ moving
         farthest[:], fastest[:] = 0.0, 0.0
         farthest[rows], fastest[rows] = np.abs(moved).max(axis=1), np.abs(moving).max(axis=1)
@@ -81,7 +96,7 @@ class RateLoads:
         columns = self._columns(terms, coordinates)
         # in whichever order costs less: few terms go through the modes before they meet time
         loads: Single = np.linalg.multi_dot([self._modes.T, columns.T, products])
-        return -loads.astype(np.float64)
+        return np.negative(loads, out=loads)
 
     def _significant(self, farthest: Single, fastest: Single) -> tuple[IntArray, IntArray]:
         """Terms and coordinates of the products whose bounds together matter.
@@ -102,8 +117,7 @@ class RateLoads:
     def _columns(self, terms: IntArray, coordinates: IntArray) -> Single:
         """Columns (k, 6 + m) of the loaded airframe's operators."""
         model = self._loading.model
-        total = np.zeros((len(terms), 6 + model.size), dtype=np.float32)
-        for weight, operators in zip(self._loading.weights, model.rate_operators, strict=True):
-            if weight != 0.0:
-                total += np.float32(weight) * operators[terms, coordinates]
+        total = np.empty((len(terms), 6 + model.size), dtype=np.float32)
+        weights = self._loading.weights.astype(np.float32)
+        _columns(np.asarray(model.rate_operators), weights, terms, coordinates, total)
         return total

@@ -5,16 +5,13 @@ strain energy is the sum of their squares.  Six rigid modes stand before them in
 matrix; they keep the frame the mean-axis frame of whatever loading is assembled.
 """
 
-import json
-import os
-import shutil
-import tempfile
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from solver.array_folder import map_array, read_head, write_array_folder
 from solver.arrays import Array, Single
 from solver.inertia_relief.damping import RayleighDamping
 from solver.inertia_relief.reduced_stress import ReducedStress, no_stress
@@ -69,39 +66,26 @@ class ReducedModel:
         )
 
     def save(self, folder: Path) -> None:
-        """Write the model as ``folder`` in one step: readers see all of it or nothing."""
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        draft = Path(tempfile.mkdtemp(prefix=".reduced-", dir=folder.parent))
-        try:
-            for part in (self, self.stress):
-                for field in fields(part):
-                    value = getattr(part, field.name)
-                    if isinstance(value, np.ndarray):
-                        np.save(draft / f"{field.name}.npy", value)
-            damping = {
-                field.name: getattr(self.damping, field.name) for field in fields(self.damping)
-            }
-            head = {"format": FORMAT, "key": self.key, "damping": damping}
-            (draft / "model.json").write_text(json.dumps(head, indent=1))
-            if folder.exists():
-                shutil.rmtree(folder)
-            os.replace(draft, folder)
-        finally:
-            shutil.rmtree(draft, ignore_errors=True)
+        """Write the model as ``folder``, see `write_array_folder`."""
+        arrays = {
+            field.name: value
+            for part in (self, self.stress)
+            for field in fields(part)
+            if isinstance(value := getattr(part, field.name), np.ndarray)
+        }
+        damping = {field.name: getattr(self.damping, field.name) for field in fields(self.damping)}
+        write_array_folder(folder, {"format": FORMAT, "key": self.key, "damping": damping}, arrays)
 
 
 def load_reduced_model(folder: Path, key: str | None = None) -> ReducedModel | None:
     """Map a stored model into memory; None if it is absent, of another format or another key."""
-    try:
-        head = json.loads((folder / "model.json").read_text())
-    except FileNotFoundError:
-        return None
-    if head["format"] != FORMAT or (key is not None and head["key"] != key):
+    head = read_head(folder)
+    if head is None or head["format"] != FORMAT or (key is not None and head["key"] != key):
         return None
 
     def arrays(kind: type, *others: str) -> dict[str, Any]:
         names = [field.name for field in fields(kind) if field.name not in others]
-        return {name: np.load(folder / f"{name}.npy", mmap_mode="r") for name in names}
+        return {name: map_array(folder, name) for name in names}
 
     return ReducedModel(
         key=head["key"],

@@ -62,10 +62,12 @@ def landing_response(
         loading.mass * np.linalg.norm(motion.gravity, axis=1),
         loading.gyration_radius,
     )
-    shapes = np.hstack([model.applied, loading.inertia]).T @ loading.modes_with_rigid
-    amplitudes = np.hstack([applied, inertial])
+    # as exact as the modes are
+    unit_loads = np.hstack([model.applied, loading.inertia]).astype(np.float32)
+    shapes = unit_loads.T @ loading.modes_with_rigid
+    amplitudes = np.hstack([applied, inertial]).astype(np.float32)
 
-    def load(first: int, last: int, out: Array) -> None:
+    def load(first: int, last: int, out: Array | Single) -> None:
         np.matmul(amplitudes[first:last], shapes, out=out)
 
     step = loading.coefficients(float(loads.time[1] - loads.time[0]))
@@ -73,7 +75,7 @@ def landing_response(
     sweeps, change = add_swept_response(
         loading, step, load, motion.rate_coefficients().T, tolerance, response
     )
-    coordinates: Single = (response @ loading.modes.astype(np.float32).T).T
+    coordinates: Single = (response @ loading.modes.T).T
     return ReducedResponse(loads.time, coordinates, sweeps, change, residual)
 
 
@@ -115,12 +117,12 @@ def add_swept_response(
     raise ModelError(f"the W terms did not converge in {MAXIMUM_SWEEPS} sweeps")
 
 
-def _between(some: Array, at: IntArray) -> LoadOf:
+def _between(some: Single, at: IntArray) -> LoadOf:
     """Give loads straight between samples ``at``, no more than two apart; (k, m) are known."""
     samples = np.arange(at[-1] + 1)
     left, right = np.searchsorted(at, samples, "right") - 1, np.searchsorted(at, samples)
 
-    def load(first: int, last: int, out: Array) -> None:
+    def load(first: int, last: int, out: Array | Single) -> None:
         np.add(some[left[first:last]], some[right[first:last]], out=out)
         out /= 2
 

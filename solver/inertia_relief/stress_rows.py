@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 _ROOT_3 = np.sqrt(3.0)
 #: Eigenvalues of the stresses' Gram matrix below this share are rounding.
 _DEPENDENT = 1e-9
+#: Elements whose rows are found at once: all in double precision would take gigabytes.
+_TOGETHER = 1024
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,18 +62,27 @@ def measure_squares(rows: NDArray[Any], points: NDArray[Any]) -> Array:
 def reduced_stress_rows(recovery: "StressRecovery", basis: Array) -> StressRows:
     """Stress rows of every element for the columns of ``basis`` (n, m)."""
     size = basis.shape[1]
-    shells = np.asarray(recovery.shell_operator @ basis).reshape(-1, 2, 3, size)
-    shells[:, :, 0] -= shells[:, :, 1] / 2
-    shells[:, :, 1] *= _ROOT_3 / 2
-    shells[:, :, 2] *= _ROOT_3
-    beams = np.asarray(recovery.beam_operator @ basis).reshape(-1, 9, size)
-    points, normal = independent_rows(beams[:, :8])
-    beam_rows = np.concatenate([normal, _ROOT_3 * beams[:, 8:]], axis=1)
-    return StressRows(
-        np.ascontiguousarray(shells.reshape(-1, 6, size), dtype=np.float32),
-        np.ascontiguousarray(beam_rows, dtype=np.float32),
-        np.ascontiguousarray(points, dtype=np.float32),
+    shell_count = recovery.shell_operator.shape[0] // 6
+    beam_count = recovery.beam_operator.shape[0] // 9
+    rows = StressRows(
+        np.empty((shell_count, 6, size), dtype=np.float32),
+        np.empty((beam_count, 6, size), dtype=np.float32),
+        np.empty((beam_count, 8, 5), dtype=np.float32),
     )
+    for first in range(0, shell_count, _TOGETHER):
+        operator = recovery.shell_operator[6 * first : 6 * (first + _TOGETHER)]
+        shells = np.asarray(operator @ basis).reshape(-1, 2, 3, size)
+        shells[:, :, 0] -= shells[:, :, 1] / 2
+        shells[:, :, 1] *= _ROOT_3 / 2
+        shells[:, :, 2] *= _ROOT_3
+        rows.shells[first : first + _TOGETHER] = shells.reshape(-1, 6, size)
+    for first in range(0, beam_count, _TOGETHER):
+        part = slice(first, first + _TOGETHER)
+        operator = recovery.beam_operator[9 * first : 9 * (first + _TOGETHER)]
+        beams = np.asarray(operator @ basis).reshape(-1, 9, size)
+        rows.points[part], rows.beams[part, :5] = independent_rows(beams[:, :8])
+        rows.beams[part, 5] = _ROOT_3 * beams[:, 8]
+    return rows
 
 
 def independent_rows(normal: Array) -> tuple[Array, Array]:

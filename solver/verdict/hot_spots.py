@@ -2,11 +2,16 @@
 
 import numpy as np
 
-from solver.aircraft.airframe import Airframe
+from solver.aircraft.assessed_airframe import AssessedAirframe
 from solver.assessment import HotSpot, PeakField
 
+#: Bulk-data card of an element with so many corners.
+_CARDS = {4: "CQUAD4", 3: "CTRIA3", 2: "CBAR"}
 
-def rank_hot_spots(airframe: Airframe, peaks: PeakField, count: int = 12) -> tuple[HotSpot, ...]:
+
+def rank_hot_spots(
+    airframe: AssessedAirframe, peaks: PeakField, count: int = 12
+) -> tuple[HotSpot, ...]:
     """Worst element of each zone, most used first.
 
     One line per zone, because an inspector is sent to a zone, not to an element; the neighbours of
@@ -14,7 +19,7 @@ def rank_hot_spots(airframe: Airframe, peaks: PeakField, count: int = 12) -> tup
 
     Parameters
     ----------
-    airframe : Airframe
+    airframe : AssessedAirframe
         Gives every element its zone, position and allowable.
     peaks : PeakField
         Peak of every element over the landing.
@@ -27,14 +32,6 @@ def rank_hot_spots(airframe: Airframe, peaks: PeakField, count: int = 12) -> tup
     _, first = np.unique(airframe.element_zone[order], return_index=True)
     worst = order[first]
     worst = worst[np.argsort(-peaks.utilisation[worst], kind="stable")][:count]
-    model = airframe.structure.model
-    shell_count = len(model.quads.identifiers) + len(model.triangles.identifiers)
-
-    def kind(row: int) -> str:
-        if row >= shell_count:
-            return "CBAR"
-        return "CQUAD4" if row < len(model.quads.identifiers) else "CTRIA3"
-
     spots = []
     for rank, row in enumerate(worst.tolist(), start=1):
         zone = zones[int(airframe.element_zone[row])]
@@ -47,7 +44,7 @@ def rank_hot_spots(airframe: Airframe, peaks: PeakField, count: int = 12) -> tup
                 zone=zone.name,
                 side=zone.side,
                 element=int(peaks.element_identifiers[row]),
-                element_kind=kind(row),
+                element_kind=_CARDS[int(airframe.element_corners[row])],
                 position=(x, y, z),
                 peak_stress=float(peaks.stress[row]),
                 allowable=float(airframe.allowables[row]),

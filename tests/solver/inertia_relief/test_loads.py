@@ -92,8 +92,7 @@ def history_of(pin_positions, seed: int = 0) -> LandingHistory:
 
 
 def airframe_of(coordinates) -> SimpleNamespace:
-    structure = SimpleNamespace(model=SimpleNamespace(coordinates=coordinates))
-    return SimpleNamespace(structure=structure, pin_rows=np.array([3, 1, 0]))
+    return SimpleNamespace(pin_positions=coordinates[[3, 1, 0]])
 
 
 def test_body_axes_become_structural_and_the_air_wrench_moves_to_the_structural_origin():
