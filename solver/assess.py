@@ -103,9 +103,22 @@ def load_assessment_model(
 
 
 def assess_landing(
-    model: AssessmentModel, record: TouchdownRecord, progress: Progress = silent
+    model: AssessmentModel,
+    record: TouchdownRecord,
+    progress: Progress = silent,
+    *,
+    probability_time_budget: float = math.inf,
 ) -> Assessment:
     """Simulate every contact of a landing, stress the airframe, and judge.
+
+    Parameters
+    ----------
+    model : AssessmentModel
+    record : TouchdownRecord
+        With uncertainties of its contacts there is a probability, too.
+    progress : Progress, optional
+    probability_time_budget : float
+        After which the probability is told from fewer samples [s].
 
     Raises
     ------
@@ -158,7 +171,9 @@ def assess_landing(
     if histories and record.uncertainties:
         progress("probability", 0.0)
         nominal = Nominal(record, loading, reduced, histories, np.stack(stress))
-        exceedance = limit_probability(airframe, model.reduced, nominal)
+        exceedance = limit_probability(
+            airframe, model.reduced, nominal, time_budget=probability_time_budget
+        )
         likelihood = exceedance.landing
         spots = exceedance.of_spots(airframe, spots)
         clock.lap("probability")

@@ -1,5 +1,6 @@
 """The one place where the service calls the solver."""
 
+import math
 from dataclasses import replace
 
 import solver
@@ -10,12 +11,19 @@ from solver.verdict.action import combine
 
 
 def solve(
-    model: AssessmentModel, record: TouchdownRecord, *, propagate_uncertainty: bool = True
+    model: AssessmentModel,
+    record: TouchdownRecord,
+    *,
+    propagate_uncertainty: bool = True,
+    time_limit: float = math.inf,
 ) -> Assessment:
-    """Assess a landing, without its probability if its uncertainty is not to be propagated."""
+    """Assess a landing, without its probability if its uncertainty is not to be propagated.
+
+    Most of the `time_limit` [s] may go into samples; the rest is for the assessment itself.
+    """
     if not propagate_uncertainty:
         record = replace(record, uncertainties=())
-    return assess_landing(model, record)
+    return assess_landing(model, record, probability_time_budget=time_limit / 2)
 
 
 def undetermined(model: AssessmentModel, record: TouchdownRecord, error: SolverError) -> Assessment:

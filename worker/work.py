@@ -119,7 +119,12 @@ def _solve(known: Models, claimed: Claim, settings: Settings) -> Assessment:
     record = inputs.from_json(claimed.inputs)
     model = known.get(record.aircraft)
     try:
-        return solve(model, record, propagate_uncertainty=settings.propagate_uncertainty)
+        return solve(
+            model,
+            record,
+            propagate_uncertainty=settings.propagate_uncertainty,
+            time_limit=settings.soft_time_limit,
+        )
     except (RecordError, SimulationDivergedError) as error:
         return undetermined(model, record, error)
 

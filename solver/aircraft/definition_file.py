@@ -298,7 +298,7 @@ class VerdictSection(Section):
     nose_first: Literal["NORMAL", "FIRM", "INSPECT", "HARD"]  #: least verdict, nose gear first
     #: what a missed exceedance costs over what a needless inspection costs
     missed_over_needless_cost: Annotated[float, Field(ge=1, le=1e4)] = 20.0
-    hard_probability: Annotated[float, Field(gt=0, lt=1)] = 0.5  #: from here HARD
+    hard_probability: Annotated[float, Field(gt=0, lt=1)] = 0.9  #: from here HARD
     #: maker's hard-landing rule: one of the program's by name, or a file (*.toml) in this folder
     makers_rule: Annotated[str, Field(pattern=r"^[\w-][\w.-]{0,99}$")] | None = None
     source: Text = "not stated"

@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from solver.aircraft.airframe import Airframe
+from solver.aircraft.assessed_airframe import AssessedAirframe
 from solver.aircraft.loading import Loading
 from solver.arrays import Array, IntArray
 from solver.assessment import TouchdownRecord
@@ -66,7 +66,11 @@ class LandingSampler:
     """Samples of one landing of one aircraft."""
 
     def __init__(
-        self, airframe: Airframe, model: ReducedModel, nominal: Nominal, threads: int | None = None
+        self,
+        airframe: AssessedAirframe,
+        model: ReducedModel,
+        nominal: Nominal,
+        threads: int | None = None,
     ) -> None:
         self.airframe = airframe
         self.nominal = nominal
@@ -202,7 +206,7 @@ class WatchedLanding:
         return Utilisations(found[:, :count], found[:, count:])
 
 
-def gear_utilisations(airframe: Airframe, history: LandingHistory) -> Array:
+def gear_utilisations(airframe: AssessedAirframe, history: LandingHistory) -> Array:
     """Largest ground load of each gear over its design limit (n_gears,)."""
     loads = gear_loads(airframe.definition.gears, history, 0)
     return np.array([load.utilisation for load in loads])

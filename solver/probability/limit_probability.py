@@ -6,20 +6,21 @@
    far above all of them: of any unimodal distribution at most 4 / (9 (1 + k^2)) lies beyond k
    standard deviations (Vysochanskij and Petunin, "Justification of the 3 sigma rule for unimodal
    distributions", Theory of Probability and Mathematical Statistics 21, 1980, one tail).
-3. If not, `REPLICATES` of that size are taken together; fewer, but `LEAST_REPLICATES`, on a machine
-   on which that takes longer than `TIME_BUDGET`, so that a slow answer does not become none.
+3. If not, `REPLICATES` of that size are taken together; fewer, but `LEAST_REPLICATES`, where that
+   takes longer than the caller can wait, so that a slow answer does not become none.
 
 All samples of a landing vary its contacts together.  It exceeds if any watched element or gear does
 in any contact.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
 
-from solver.aircraft.airframe import Airframe
+from solver.aircraft.assessed_airframe import AssessedAirframe
 from solver.arrays import Array, IntArray
 from solver.assessment import HotSpot, LimitProbability, ProbabilityBasis
 from solver.errors import SimulationDivergedError
@@ -42,8 +43,6 @@ from solver.probability.normals import seed_of, sobol_normals
 
 #: Samples of a replicate, and replicates.
 FIRST, REPLICATES, LEAST_REPLICATES = 32, 8, 2
-#: After which no replicate is begun that is not needed [s].
-TIME_BUDGET = 10.0
 #: Largest probability at which the first replicate settles the matter.
 SETTLED = 0.02
 #: Share of the most used element's utilisation from which an element is watched, and what that
@@ -62,7 +61,7 @@ class Exceedance:
     landing: LimitProbability
     zones: dict[int, tuple[float, float]]  #: index to probability and its standard error
 
-    def of_spots(self, airframe: Airframe, spots: Sequence[HotSpot]) -> tuple[HotSpot, ...]:
+    def of_spots(self, airframe: AssessedAirframe, spots: Sequence[HotSpot]) -> tuple[HotSpot, ...]:
         """Hot spots with the probability of their zones; zero where none was worth watching."""
         names = {zone.name: index for index, zone in enumerate(airframe.definition.zones)}
         unwatched = (0.0, self.landing.standard_error)
@@ -74,7 +73,12 @@ class Exceedance:
 
 
 def limit_probability(
-    airframe: Airframe, model: ReducedModel, nominal: Nominal, threads: int | None = None
+    airframe: AssessedAirframe,
+    model: ReducedModel,
+    nominal: Nominal,
+    *,
+    threads: int | None = None,
+    time_budget: float = math.inf,
 ) -> Exceedance:
     """Propagate a record's uncertainty and the aircraft's scatter.
 
@@ -86,6 +90,8 @@ def limit_probability(
         The landing as recorded; its record says how well each contact is known.
     threads : int, optional
         All available cores by default.
+    time_budget : float
+        After which no replicate is begun that is not needed [s].
 
     Raises
     ------
@@ -110,7 +116,7 @@ def limit_probability(
     for number in open_contacts:
         designs += [tried[number][0], _corner_peaks(sampler, number, mirrored=True)[0]]
     elements = chosen_elements([design / airframe.allowables for design in designs])
-    return _sampled(sampler, sampler.watch(elements, open_contacts))
+    return _sampled(sampler, sampler.watch(elements, open_contacts), time_budget)
 
 
 def _corner_peaks(
@@ -158,7 +164,7 @@ def chosen_elements(utilisations: Sequence[Array]) -> IntArray:
     return np.sort(order[score[order] >= WATCHED_SHARE])
 
 
-def _sampled(sampler: LandingSampler, watched: WatchedLanding) -> Exceedance:
+def _sampled(sampler: LandingSampler, watched: WatchedLanding, time_budget: float) -> Exceedance:
     start = perf_counter()
     variables = sampler.variables
     seed = seed_of(repr(sampler.nominal.record))
@@ -172,7 +178,7 @@ def _sampled(sampler: LandingSampler, watched: WatchedLanding) -> Exceedance:
         )
     parts = [first]
     for replicate in normals[1:]:
-        if len(parts) >= LEAST_REPLICATES and perf_counter() - start > TIME_BUDGET:
+        if len(parts) >= LEAST_REPLICATES and perf_counter() - start > time_budget:
             break
         parts.append(watched.utilisations([variables.sample(row) for row in replicate]))
     return _estimated(watched, parts)

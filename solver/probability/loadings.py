@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import ndtr
 
-from solver.aircraft.airframe import Airframe
+from solver.aircraft.assessed_airframe import AssessedAirframe
 from solver.aircraft.loading import Loading, balance, spread
 from solver.arrays import Array
 from solver.assessment import TouchdownRecord
@@ -39,7 +39,9 @@ class LoadingPoints:
         return int(np.searchsorted(_ENDS, ndtr(normal), side="right"))
 
 
-def loading_points(airframe: Airframe, record: TouchdownRecord, loading: Loading) -> LoadingPoints:
+def loading_points(
+    airframe: AssessedAirframe, record: TouchdownRecord, loading: Loading
+) -> LoadingPoints:
     """Spread the loading of a record by the deviations of its mass and centre of gravity.
 
     What tanks and bays cannot take up is left out: no aircraft flies with more or less than fits.

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from solver.aircraft.airframe import Airframe
+from solver.aircraft.assessed_airframe import AssessedAirframe
 from solver.aircraft.definition import AircraftDefinition
 from solver.arrays import Array
 from solver.assessment import TouchdownRecord
@@ -72,7 +72,7 @@ class LandingVariables:
         The record has uncertainties, but not one for each contact.
     """
 
-    def __init__(self, airframe: Airframe, record: TouchdownRecord) -> None:
+    def __init__(self, airframe: AssessedAirframe, record: TouchdownRecord) -> None:
         if len(record.uncertainties) != len(record.contacts):
             raise RecordError(
                 f"uncertainties are those of {len(record.uncertainties)} contacts, the record has "

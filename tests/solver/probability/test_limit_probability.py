@@ -90,12 +90,10 @@ def test_a_landing_near_its_limit_is_sampled_and_the_same_record_alike(
         assert spot.probability_limit_exceeded <= found.probability
 
 
-def test_a_slow_machine_answers_with_fewer_samples(
-    mini: AssessmentModel, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("solver.probability.limit_probability.TIME_BUDGET", 0.0)
+def test_a_slow_machine_answers_with_fewer_samples(mini: AssessmentModel) -> None:
     nominal = assessed(mini, landing(mini, 3.2))
-    found = limit_probability(mini.airframe, mini.reduced, nominal).landing
+    answer = limit_probability(mini.airframe, mini.reduced, nominal, time_budget=0.0)
+    found = answer.landing
     assert found.samples == 2 * FIRST
     assert found.upper - found.lower > 0.1
 
