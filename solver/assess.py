@@ -33,9 +33,10 @@ from solver.inertia_relief.loads import landing_loads
 from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import landing_response
-from solver.landing.compilation import compile_kernels
+from solver.landing.compilation import compile_kernels as compile_landing
 from solver.landing.history import LandingHistory
 from solver.landing.simulate import simulate_landing
+from solver.probability.compilation import compile_kernels as compile_samples
 from solver.probability.exceedance import Nominal
 from solver.probability.limit_probability import limit_probability
 from solver.progress import Progress, silent
@@ -97,7 +98,8 @@ def load_assessment_model(
     else:
         rule = load_makers_rule(folder, airframe.definition.makers_rule)
     progress("compiling the kernels", 0.0)
-    compile_kernels()
+    compile_landing()
+    compile_samples()
     progress("compiling the kernels", 1.0)
     return AssessmentModel(airframe, reduced, rule)
 
