@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types contracts check bench bench-service verify docs lock openapi clean
+.PHONY: help run test lint types contracts check bench bench-scaling bench-service verify docs lock openapi clean
 SHELL := /bin/sh
 B := .venv/bin
 # One BLAS thread in every process: the work is spread over processes, not inside a product.
@@ -29,6 +29,9 @@ check: test lint types contracts  ## everything that CI runs
 
 bench:  ## timings of one landing, side by side in one run
 	@bin/setup dev && $(B)/python -m benchmarks.landing
+
+bench-scaling:  ## how a landing's cost grows up to 100,000 elements (SIZES="1 2 4")
+	@bin/setup dev && $(B)/python -m benchmarks.scaling $(if $(SIZES),--sizes $(SIZES))
 
 bench-service:  ## how the service keeps up, with a real Postgres and Redis (OPTIONS="--landings 200")
 	@bin/setup dev && $(B)/python -m benchmarks.service $(OPTIONS)

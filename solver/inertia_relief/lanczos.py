@@ -92,10 +92,10 @@ def largest_modes(
 
 def _orthonormal(vectors: Array, mass: Any) -> tuple[Array, Array]:
     """M-orthonormal Q and R (WIDTH, WIDTH) with ``Q R`` the vectors, by Cholesky twice."""
-    total = np.eye(vectors.shape[1])
+    total: Array = np.eye(vectors.shape[1])
     for _ in range(2):
         gram = vectors.T @ (mass @ vectors)
-        lower = np.linalg.cholesky((gram + gram.T) / 2)
+        lower: Array = np.linalg.cholesky((gram + gram.T) / 2)
         turned: Array = np.linalg.solve(lower, vectors.T)
-        vectors, total = turned.T, lower.T @ total
+        vectors, total = turned.T, np.asarray(lower.T @ total)
     return vectors, total
