@@ -94,8 +94,8 @@ def _orthonormal(vectors: Array, mass: Any) -> tuple[Array, Array]:
     """M-orthonormal Q and R (WIDTH, WIDTH) with ``Q R`` the vectors, by Cholesky twice."""
     total: Array = np.eye(vectors.shape[1])
     for _ in range(2):
-        gram = vectors.T @ (mass @ vectors)
-        lower: Array = np.linalg.cholesky((gram + gram.T) / 2)
-        turned: Array = np.linalg.solve(lower, vectors.T)
-        vectors, total = turned.T, np.asarray(lower.T @ total)
+        gram: Array = vectors.T @ (mass @ vectors)
+        upper = np.linalg.cholesky((gram + gram.T) / 2).T
+        turned: Array = np.linalg.solve(upper.T, vectors.T)
+        vectors, total = turned.T, upper @ total
     return vectors, total
