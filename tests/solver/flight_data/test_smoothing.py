@@ -5,7 +5,8 @@ import pytest
 
 from solver.flight_data.anti_alias import anti_aliased
 from solver.flight_data.onset import indicator, preceded, ramp_response
-from solver.flight_data.rts import LinearSystem, smooth
+from solver.flight_data.reconstruction import reconstruct
+from solver.flight_data.rts import LinearSystem, _smooth, compile_smoother, smooth
 from solver.flight_data.vote import vote
 
 
@@ -36,6 +37,12 @@ def test_smoother_solves_the_least_squares_problem_of_all_nodes() -> None:
     covariance = np.linalg.inv(precision)
     np.testing.assert_allclose(result.mean[:, 0], covariance @ (measured / 0.5), atol=1e-12)
     np.testing.assert_allclose(result.covariance[:, 0, 0], np.diag(covariance), atol=1e-12)
+
+
+def test_a_window_is_smoothed_by_what_the_warm_up_compiled(window, geometry) -> None:
+    compile_smoother()
+    reconstruct(window, geometry)
+    assert len(_smooth.nopython_signatures) == 1
 
 
 def test_likelihood_is_that_of_the_joint_normal_distribution() -> None:
