@@ -143,31 +143,34 @@ class _Search:
     def look_at(self, block: StressBlock, first: int) -> None:
         """Find the peaks of a block whose first element is ``first``."""
         part = slice(first, first + len(block.rows))
-        floors = self._single_floors[part]
-        elements = np.arange(len(block.rows))
-        small = block
-        if floors.any():
-            elements = np.flatnonzero(~(self._ceilings(block) <= floors))
-            if len(elements) == 0:
+        elements, plan, small, start = np.arange(len(block.rows)), self._plan, block, 0
+        if self._single_floors[part].any():
+            possible = self._possible(block, self._single_floors[part])
+            if not possible.any():
                 return
-            if len(elements) < _WORTH_CUTTING * len(block.rows):
-                small, floors = block.compressed_part(elements), floors[elements]
-            else:
-                elements = np.arange(len(block.rows))
-        self._gather(small, floors)
+            intervals = np.flatnonzero(possible.any(axis=0))
+            start = int(plan.knots[intervals[0]])
+            plan = plan.window(int(intervals[0]), int(intervals[-1]) + 1)
+            some = np.flatnonzero(possible.any(axis=1))
+            if len(some) < _WORTH_CUTTING * len(block.rows):
+                elements, small = some, block.compressed_part(some)
+        floors = self._single_floors[part][elements]
+        self._gather(plan, small, floors)
+        sample = self._sample[part]
         self._evaluated += evaluate_candidates(
             block.rows,
             block.points,
             elements,
-            self._plan.coordinates,
+            plan.coordinates,
             self._starts,
             self._candidates,
             self._reach,
             floors,
             self._slack,
             self._stress[part],
-            self._sample[part],
+            sample,
         )
+        sample[sample >= 0] += start
 
     def peaks(self) -> StressPeaks:
         """Return what was found in all blocks."""
@@ -181,17 +184,18 @@ class _Search:
             evaluated=self._evaluated / max(1, len(self._stress) * len(self._time)),
         )
 
-    def _ceilings(self, block: StressBlock) -> Single:
-        """Bounds (n,) of the stress of each element at any sample."""
+    def _possible(self, block: StressBlock, floors: Single) -> BoolArray:
+        """Whether each element can exceed its floor in each interval, (n, ni)."""
         groups = block.rest_norms.shape[1] // 2
-        # what the patterns leave out and what they hold, of coordinates as far as they ever move
+        # what the patterns leave out and what they hold, of coordinates as far as they move there
         norms = block.rest_norms[:, :groups] + block.rest_norms[:, groups:]
-        bounds: Single = (norms @ self._plan.largest[:groups]).max(axis=1) * _MARGIN
-        return bounds
+        bounds = norms @ self._plan.largest[:groups] * _MARGIN
+        possible: BoolArray = ~(bounds <= floors[:, None])  # also if it is not a number
+        return possible
 
-    def _gather(self, block: StressBlock, floors: Single) -> None:
+    def _gather(self, plan: SearchPlan, block: StressBlock, floors: Single) -> None:
         """Gather samples that can be peaks of a block, see `gather_candidates`."""
-        plan, room = self._plan, self._room
+        room = self._room
         knots, intervals = len(plan.knots), len(plan.knots) - 1
         size, patterns = len(floors), block.shares.shape[1]
         edges = group_edges(patterns, PATTERN_GROUP)
