@@ -13,8 +13,7 @@ patterns p, so that A z = S p + (what the patterns leave out, bounded by groups 
 Elements that cannot exceed what the caller calls their floor are left out as early as a bound
 allows: all at once for the whole landing, interval by interval, or sample by sample.
 
-What is given is a stress of the exact rows at a sample, to the rounding of single precision; no
-other sample's is higher by more than the stated tolerance.
+The result is that of evaluating every sample, to the rounding of single precision.
 """
 
 from collections.abc import Sequence
@@ -32,8 +31,6 @@ from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.reduced_stress import BLOCK, PATTERN_GROUP, StressBlock, group_edges
 from solver.inertia_relief.response import ReducedResponse
 
-#: Share of its own peak that an element's stress may be below it.
-TOLERANCE = 5e-4
 #: Landings that go through a block of elements before the next one is read.
 LANDINGS_AT_ONCE = 16
 #: Covers the rounding of single precision in comparing a bound with a floor.
@@ -60,7 +57,6 @@ def find_peaks(
     model: ReducedModel,
     response: ReducedResponse,
     floor: ArrayLike = 0.0,
-    tolerance: float = TOLERANCE,
 ) -> StressPeaks:
     """Find the peak of every element over all samples of a response.
 
@@ -68,22 +64,19 @@ def find_peaks(
     ----------
     floor : float or (ne,) array
         Stress up to which nobody cares how high an element's peak is [Pa].
-    tolerance : float
-        A sample may be taken for the peak if no other's stress is higher by more than this share.
 
     Raises
     ------
     ModelError
-        Floors of another shape than the elements', or negative ones, or a negative tolerance.
+        Floors of another shape than the elements', or negative ones.
     """
-    return find_peaks_together(model, [response], floor, tolerance)[0]
+    return find_peaks_together(model, [response], floor)[0]
 
 
 def find_peaks_together(
     model: ReducedModel,
     responses: Sequence[ReducedResponse],
     floor: ArrayLike = 0.0,
-    tolerance: float = TOLERANCE,
 ) -> list[StressPeaks]:
     """Find the peaks of several landings, each as `find_peaks` does.
 
@@ -95,15 +88,13 @@ def find_peaks_together(
         raise ModelError(f"floor must be one stress or {count}, got shape {floors.shape}")
     if not np.all(floors >= 0.0):
         raise ModelError(f"floor must not be negative, got {floors.min():g} Pa")
-    if not tolerance >= 0.0:
-        raise ModelError(f"tolerance must not be negative, got {tolerance:g}")
     floors = np.ascontiguousarray(np.broadcast_to(floors, count))
     found: list[StressPeaks] = []
     # fresh pages for every block would cost as much as what is written on them
     room = _Room()
     for first in range(0, len(responses), LANDINGS_AT_ONCE):
         searches = [
-            _Search(model, response, floors, tolerance, room)
+            _Search(model, response, floors, room)
             for response in responses[first : first + LANDINGS_AT_ONCE]
         ]
         element = 0
@@ -123,12 +114,11 @@ class _Search:
         model: ReducedModel,
         response: ReducedResponse,
         floors: Array,
-        tolerance: float,
         room: "_Room",
     ) -> None:
         self._plan: SearchPlan = plan_search(response.coordinates.T / model.stress.scale)
         self._time = response.time
-        self._floors, self._slack = floors, 1.0 + tolerance
+        self._floors = floors
         self._single_floors = floors.astype(np.float32)
         self._room = room
         self._stress = np.zeros(len(floors))
@@ -166,7 +156,6 @@ class _Search:
             self._candidates,
             self._reach,
             floors,
-            self._slack,
             self._stress[part],
             sample,
         )
@@ -233,7 +222,6 @@ class _Search:
             history,
             plan.knots,
             floors,
-            self._slack,
             self._starts,
             self._candidates,
             self._reach,
