@@ -194,19 +194,14 @@ def _gather(
     for c in range(0, count, 2):
         pair = _stress(shares, e, patterns, samples[c], samples[c + 1], points)
         estimates[c], estimates[c + 1] = pair[0], pair[1]
-    best = -1
     for c in range(count):
-        if estimates[c] - doubt[c] > certain:
-            certain, best = estimates[c] - doubt[c], c
+        certain = max(certain, estimates[c] - doubt[c])
     limit = max(floor, certain)
-    if certain <= floor:
-        best = -1
     for c in range(count):
-        # what others are held against is looked at itself
-        if c == best or (estimates[c] + doubt[c]) * _MARGIN > limit:
+        if (estimates[c] + doubt[c]) * _MARGIN > limit:
             t = samples[c]
             rest: Any = _rest(rest_norms, e, norms, t)
-            if c == best or (estimates[c] + rest) * _MARGIN > limit:
+            if (estimates[c] + rest) * _MARGIN > limit:
                 candidates[found], reach[found] = t, (estimates[c] + rest) * _MARGIN
                 if estimates[c] - rest >= certain:
                     certain, likeliest = estimates[c] - rest, found

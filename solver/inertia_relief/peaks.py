@@ -164,7 +164,7 @@ class _Search:
     def peaks(self) -> StressPeaks:
         """Return what was found in all blocks."""
         below = (self._stress <= self._floors) & (self._floors > 0.0)
-        sample = np.where(below, -1, np.minimum(self._sample, len(self._time) - 1))
+        sample = np.where(below, -1, np.clip(self._sample, 0, len(self._time) - 1))
         return StressPeaks(
             stress=np.where(below, self._floors, self._stress),
             sample=sample,

@@ -125,6 +125,15 @@ def test_floors_above_every_peak_leave_nothing_to_evaluate():
     assert find_peaks(model, response_of(coordinates), 10 * floor.max()).evaluated == 0.0
 
 
+def test_elements_at_rest_without_a_floor_peak_at_nothing_beside_others_with_one():
+    model = stress_model(4, 0, 3, 0)
+    floor = np.array([0.0, 1.0, 0.0, 1.0])
+    peaks = find_peaks(model, response_of(np.zeros((3, 20))), floor)
+    assert np.array_equal(peaks.stress, floor)
+    assert np.array_equal(peaks.below_floor, floor > 0.0)
+    assert np.array_equal(peaks.sample, [0, -1, 0, -1])
+
+
 def test_landings_together_are_each_by_itself():
     """Of other lengths, and more of them than go through a block at once."""
     model = stress_model(300, 20, 12, 3)
