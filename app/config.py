@@ -55,6 +55,10 @@ class Settings(BaseSettings):
     worker_concurrency: Annotated[int, Field(ge=1)] = max(1, (os.cpu_count() or 2) - 1)
     worker_lanes: Annotated[tuple[str, ...], NoDecode] = ("interactive", "bulk")
 
+    #: Whether a landing's uncertainty goes through the simulation, too.  Seconds of all cores for
+    #: a firm landing; without it there is a verdict, but no probability.
+    propagate_uncertainty: bool = True
+
     #: Histories and peak fields are kept when the worst utilisation reaches this, or the verdict
     #: asks for an inspection.  Unset: everything on SQLite, 0.8 on Postgres.
     keep_arrays_above: Annotated[float, Field(ge=0)] | None = None

@@ -33,9 +33,12 @@ from solver.inertia_relief.loads import landing_loads
 from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import landing_response
-from solver.landing.compilation import compile_kernels
+from solver.landing.compilation import compile_kernels as compile_landing
 from solver.landing.history import LandingHistory
 from solver.landing.simulate import simulate_landing
+from solver.probability.compilation import compile_kernels as compile_samples
+from solver.probability.exceedance import Nominal
+from solver.probability.limit_probability import limit_probability
 from solver.progress import Progress, silent
 from solver.verdict.action import combine
 from solver.verdict.gear_loads import gear_loads
@@ -95,15 +98,29 @@ def load_assessment_model(
     else:
         rule = load_makers_rule(folder, airframe.definition.makers_rule)
     progress("compiling the kernels", 0.0)
-    compile_kernels()
+    compile_landing()
+    compile_samples()
     progress("compiling the kernels", 1.0)
     return AssessmentModel(airframe, reduced, rule)
 
 
 def assess_landing(
-    model: AssessmentModel, record: TouchdownRecord, progress: Progress = silent
+    model: AssessmentModel,
+    record: TouchdownRecord,
+    progress: Progress = silent,
+    *,
+    probability_time_budget: float = math.inf,
 ) -> Assessment:
     """Simulate every contact of a landing, stress the airframe, and judge.
+
+    Parameters
+    ----------
+    model : AssessmentModel
+    record : TouchdownRecord
+        With uncertainties of its contacts there is a probability, too.
+    progress : Progress, optional
+    probability_time_budget : float
+        After which the probability is told from fewer samples [s].
 
     Raises
     ------
@@ -134,6 +151,7 @@ def assess_landing(
     reduced = assemble(model.reduced, loading.factors)
     peaks = _PeakEnvelope(airframe)
     residual = 0.0
+    stress = []
     for number, history in enumerate(histories):
         progress("airframe stress", number / len(histories))
         response = landing_response(reduced, landing_loads(airframe, history))
@@ -141,6 +159,7 @@ def assess_landing(
         clock.lap("reduced_solution")
         found = find_peaks(model.reduced, response)
         peaks.add(number, found.stress, found.time)
+        stress.append(found.stress)
         clock.lap("peak_search")
 
     field = peaks.field()
@@ -150,7 +169,19 @@ def assess_landing(
         for load in gear_loads(definition.gears, history, number)
     )
     spots = rank_hot_spots(airframe, field) if histories else ()
-    reasons = judge(definition, record, mass, histories, loads, spots[0] if spots else None)
+    likelihood = None
+    if histories and record.uncertainties:
+        progress("probability", 0.0)
+        nominal = Nominal(record, loading, reduced, histories, np.stack(stress))
+        exceedance = limit_probability(
+            airframe, model.reduced, nominal, time_budget=probability_time_budget
+        )
+        likelihood = exceedance.landing
+        spots = exceedance.of_spots(airframe, spots)
+        clock.lap("probability")
+    reasons = judge(
+        definition, record, mass, histories, loads, spots[0] if spots else None, likelihood
+    )
     verdict = severest(reasons)
     rule = judge_by_rule(model, record, histories)
     action, difference = combine(verdict, rule)
@@ -162,7 +193,7 @@ def assess_landing(
         rule_difference=difference,
         makers_rule=rule,
         reasons=reasons,
-        probability_limit_exceeded=None,
+        limit_probability=likelihood,
         driving_contact=_driving_contact(spots, loads),
         worst_utilisation=worst,
         worst_margin=math.inf if worst == 0.0 else 1.0 / worst - 1.0,
@@ -180,6 +211,7 @@ def assess_landing(
             simulation=clock.seconds["simulation"],
             reduced_solution=clock.seconds["reduced_solution"],
             peak_search=clock.seconds["peak_search"],
+            probability=clock.seconds["probability"],
             total=perf_counter() - start,
         ),
         peak_field=field if histories else None,
@@ -200,7 +232,8 @@ class _Clock:
     """Wall-clock seconds between laps, summed by name."""
 
     def __init__(self) -> None:
-        self.seconds = dict.fromkeys(("simulation", "reduced_solution", "peak_search"), 0.0)
+        steps = ("simulation", "reduced_solution", "peak_search", "probability")
+        self.seconds = dict.fromkeys(steps, 0.0)
         self._last = perf_counter()
 
     def lap(self, name: str) -> None:

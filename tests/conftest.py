@@ -151,6 +151,7 @@ def make_stack(kind: str, var: Path, request: pytest.FixtureRequest) -> Iterator
         broker_url=broker,
         log_format="console",
         keep_arrays_above=0.0,
+        propagate_uncertainty=False,  # seconds for every firm landing; tests of it ask for it
     )
     yield Stack(kind, settings)
 

@@ -1,5 +1,8 @@
 """The one place where the service calls the solver."""
 
+import math
+from dataclasses import replace
+
 import solver
 from solver.assess import AssessmentModel, assess_landing, judge_by_rule
 from solver.assessment import Assessment, Reason, Timing, TouchdownRecord, Verdict
@@ -7,9 +10,20 @@ from solver.errors import SolverError
 from solver.verdict.action import combine
 
 
-def solve(model: AssessmentModel, record: TouchdownRecord) -> Assessment:
-    """Assess a landing."""
-    return assess_landing(model, record)
+def solve(
+    model: AssessmentModel,
+    record: TouchdownRecord,
+    *,
+    propagate_uncertainty: bool = True,
+    time_limit: float = math.inf,
+) -> Assessment:
+    """Assess a landing, without its probability if its uncertainty is not to be propagated.
+
+    Most of the `time_limit` [s] may go into samples; the rest is for the assessment itself.
+    """
+    if not propagate_uncertainty:
+        record = replace(record, uncertainties=())
+    return assess_landing(model, record, probability_time_budget=time_limit / 2)
 
 
 def undetermined(model: AssessmentModel, record: TouchdownRecord, error: SolverError) -> Assessment:
@@ -27,7 +41,7 @@ def undetermined(model: AssessmentModel, record: TouchdownRecord, error: SolverE
         rule_difference=difference,
         makers_rule=rule,
         reasons=(Reason("inadmissible_record", str(error), Verdict.UNDETERMINED),),
-        probability_limit_exceeded=None,
+        limit_probability=None,
         driving_contact=None,
         worst_utilisation=nothing,
         worst_margin=nothing,

@@ -96,7 +96,7 @@ def work_through(
 def _assess(engine: Engine, settings: Settings, known: Models, claimed: Claim) -> list[Answer]:
     """The answer to one landing, or none where the attempt went wrong and was closed."""
     try:
-        assessed = _solve(known, claimed)
+        assessed = _solve(known, claimed, settings)
         answer = recording.answer(claimed, assessed, keeps_arrays_from=settings.keeps_arrays_from)
     except NewAircraftError:
         raise
@@ -115,11 +115,16 @@ def _assess(engine: Engine, settings: Settings, known: Models, claimed: Claim) -
     return []
 
 
-def _solve(known: Models, claimed: Claim) -> Assessment:
+def _solve(known: Models, claimed: Claim, settings: Settings) -> Assessment:
     record = inputs.from_json(claimed.inputs)
     model = known.get(record.aircraft)
     try:
-        return solve(model, record)
+        return solve(
+            model,
+            record,
+            propagate_uncertainty=settings.propagate_uncertainty,
+            time_limit=settings.soft_time_limit,
+        )
     except (RecordError, SimulationDivergedError) as error:
         return undetermined(model, record, error)
 

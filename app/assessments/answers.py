@@ -6,7 +6,13 @@ from typing import Any
 from pydantic import BaseModel, Field
 
 from app.assessments.states import State
-from solver.assessment import ADVISORY, RuleDifference, RuleStatus, Verdict
+from solver.assessment import (
+    ADVISORY,
+    ProbabilityBasis,
+    RuleDifference,
+    RuleStatus,
+    Verdict,
+)
 
 
 class ReasonOut(BaseModel):
@@ -64,6 +70,24 @@ class RuleVerdictOut(BaseModel):
     findings: list[RuleFindingOut]
 
 
+class LimitProbabilityOut(BaseModel):
+    """Probability that a limit was exceeded, with the error of its own sampling."""
+
+    probability: float
+    standard_error: float = Field(description="Of sampling alone.")
+    lower: float = Field(description="Of the 95 % interval of sampling.")
+    upper: float = Field(
+        description="Of the same interval; where nothing or little was sampled, the bound that "
+        "`basis` leaves."
+    )
+    samples: int = Field(description="Landings simulated for it.")
+    failed: int = Field(description="Of those, not to be simulated; counted as exceeding.")
+    basis: ProbabilityBasis = Field(
+        description="`corners`: pessimistic landings stay below every limit; `first_samples`: few "
+        "samples, all far below every limit; `samples`: all samples."
+    )
+
+
 class VerdictOut(BaseModel):
     """What was found and what it rests on."""
 
@@ -79,7 +103,11 @@ class VerdictOut(BaseModel):
     is_provisional: bool
     reasons: list[ReasonOut]
     probability_limit_exceeded: float | None = Field(
-        description="Null until the record's uncertainty is propagated."
+        description="That a limit allowable of the airframe or a gear's design limit load was "
+        "exceeded, as well as the record is known. Null where nothing could be simulated."
+    )
+    limit_probability: LimitProbabilityOut | None = Field(
+        description="The same with its own sampling error and what it rests on."
     )
     driving_contact: int | None
     worst_utilisation: float | None = Field(description="Peak stress over limit allowable.")
@@ -131,6 +159,10 @@ class HotSpotOut(BaseModel):
     contact: int
     ata_chapter: str
     inspection: str
+    probability_limit_exceeded: float | None = Field(
+        description="That an element of this zone exceeded its limit allowable."
+    )
+    probability_standard_error: float | None = Field(description="Of sampling alone.")
 
 
 class HotSpots(BaseModel):

@@ -68,6 +68,8 @@ class VerdictRow(Base):
     makers_rule: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     is_provisional: Mapped[bool] = mapped_column(default=False)
     probability_limit_exceeded: Mapped[float | None] = mapped_column(Float)
+    #: with its sampling error and basis
+    limit_probability: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     driving_contact: Mapped[int | None] = mapped_column(Integer)
     worst_utilisation: Mapped[float | None] = mapped_column(Float)
     worst_margin: Mapped[float | None] = mapped_column(Float)
@@ -108,3 +110,5 @@ class HotSpotRow(Base):
     contact: Mapped[int] = mapped_column(Integer)
     ata_chapter: Mapped[str] = mapped_column(String(20))
     inspection: Mapped[str] = mapped_column(Text)
+    probability_limit_exceeded: Mapped[float | None] = mapped_column(Float)
+    probability_standard_error: Mapped[float | None] = mapped_column(Float)

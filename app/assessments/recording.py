@@ -15,7 +15,7 @@ from app.assessments.models import HotSpotRow, VerdictRow
 from app.assessments.queue import Claim
 from app.audit import service as audit
 from app.rows import insert_rows
-from solver.assessment import Assessment, HotSpot, RuleVerdict, Verdict
+from solver.assessment import Assessment, HotSpot, LimitProbability, RuleVerdict, Verdict
 
 #: Whatever sends an inspector to the aircraft keeps its pictures.
 _ALWAYS_KEPT = (Verdict.INSPECT, Verdict.HARD, Verdict.UNDETERMINED)
@@ -95,6 +95,7 @@ def _verdict(claimed: Claim, assessment: Assessment) -> dict[str, Any]:
         "rule_difference": assessment.rule_difference,
         "makers_rule": _rule(assessment.makers_rule),
         "probability_limit_exceeded": _number(assessment.probability_limit_exceeded),
+        "limit_probability": _likelihood(assessment.limit_probability),
         "driving_contact": assessment.driving_contact,
         "worst_utilisation": _number(assessment.worst_utilisation),
         "worst_margin": _number(assessment.worst_margin),
@@ -133,6 +134,8 @@ def _hot_spot(assessment_id: str, spot: HotSpot) -> dict[str, Any]:
         "contact": int(spot.contact),
         "ata_chapter": spot.ata_chapter,
         "inspection": spot.inspection,
+        "probability_limit_exceeded": spot.probability_limit_exceeded,
+        "probability_standard_error": spot.probability_standard_error,
     }
 
 
@@ -141,6 +144,10 @@ def _rule(verdict: RuleVerdict | None) -> dict[str, Any] | None:
         return None
     findings = [_plain(asdict(finding)) for finding in verdict.findings]
     return asdict(verdict) | {"findings": findings}
+
+
+def _likelihood(likelihood: LimitProbability | None) -> dict[str, Any] | None:
+    return None if likelihood is None else asdict(likelihood)
 
 
 def _number(value: float | None) -> float | None:

@@ -10,13 +10,25 @@ from pydantic import ValidationError
 from pydantic_core import from_json
 
 from app.landings.field_errors import FieldError, InvalidRecordError, field_errors
-from app.landings.quantities import CentreOfGravity, FuelOrPayload, Measured
+from app.landings.quantities import (
+    AngularRate,
+    CentreOfGravity,
+    Drift,
+    FuelOrPayload,
+    GroundSpeed,
+    LiftFraction,
+    Measured,
+    Pitch,
+    Roll,
+    SinkRate,
+)
 from app.landings.recorded import recorded_contact
 from app.landings.schemas import ContactIn, LiftIn, TouchdownRecordIn
 from solver.aircraft.definition import AircraftDefinition, MassGroup
 from solver.aircraft.definition_reader import load_definition
 from solver.assessment import TouchdownRecord
 from solver.landing.contact import Contact, Lift, LiftModel
+from solver.landing.contact_uncertainty import ContactUncertainty
 from solver.recorded import RecordedContact
 
 #: Below this rate a landing peak can be missed altogether, so a recorded peak proves nothing.
@@ -103,6 +115,7 @@ class _Conversion:
         self.errors: list[FieldError] = []
         self.missing: list[str] = []
         self.recorded: list[RecordedContact] = []
+        self.uncertainties: list[ContactUncertainty] = []
         self.sd: dict[str, float] = {}
         self.sd_defaulted: list[str] = []
         self.taken_as_zero: list[str] = []
@@ -116,7 +129,10 @@ class _Conversion:
             fuel=self._group_masses("fuel", self.record.fuel, self.definition.tanks),
             payload=self._group_masses("payload", self.record.payload, self.definition.bays),
             missing=tuple(self.missing),
+            mass_deviation=self.sd.get("mass.gross_weight"),
+            centre_of_gravity_deviation=self.sd.get("mass.cg"),
             recorded=tuple(self.recorded),
+            uncertainties=tuple(self.uncertainties),
         )
         if self.errors:
             raise InvalidRecordError(self.errors)
@@ -203,6 +219,7 @@ class _Conversion:
             self.recorded.append(recorded_contact(given, simulated))
             if not absent:  # a zero in place of an unknown speed would be simulated as a greaser
                 contacts.append(contact)
+                self.uncertainties.append(contact_uncertainty(given))
         return contacts
 
     def _check_recorder(self, path: str, given: ContactIn) -> None:
@@ -253,6 +270,31 @@ class _Conversion:
                 f"{path}.lift.normal_acceleration", lift.normal_acceleration
             ),
         )
+
+
+def contact_uncertainty(given: ContactIn) -> ContactUncertainty:
+    """How well a contact's state is known: its deviations, or the defaults of `quantities`.
+
+    What the record leaves to its default is as uncertain as if it had been recorded so.
+    """
+
+    def deviation(measured: Measured | None, kind: type[Measured]) -> float:
+        return kind.default_sd if measured is None else measured.sd_si
+
+    lift = given.lift or LiftIn(fraction=given.lift_fraction)
+    trimmed = lift.normal_acceleration if lift.model == "trimmed" else None
+    return ContactUncertainty.independent(
+        sink_rate=deviation(given.sink_rate, SinkRate),
+        pitch=deviation(given.pitch, Pitch),
+        roll=deviation(given.roll, Roll),
+        drift=deviation(given.drift, Drift),
+        ground_speed=deviation(given.ground_speed, GroundSpeed),
+        pitch_rate=deviation(given.pitch_rate, AngularRate),
+        roll_rate=deviation(given.roll_rate, AngularRate),
+        yaw_rate=deviation(given.yaw_rate, AngularRate),
+        # In g and of the weight alike.
+        lift_fraction=deviation(trimmed or lift.fraction, LiftFraction),
+    )
 
 
 def _out_of_range(path: str, measured: Measured, low: float, high: float, unit: str) -> FieldError:

@@ -23,6 +23,7 @@ sys.path.insert(0, str(FIGURES))
 
 from airframe import draw_airframe  # noqa: E402
 from landings import write_table  # noqa: E402
+from probability import draw_probability  # noqa: E402
 
 #: Design landing of 14 CFR 25.473: 10 ft/s at the maximum landing mass.
 DESIGN_CONTACT = Contact(sink_rate=3.048, ground_speed=55.0, pitch=math.radians(3.0))
@@ -58,6 +59,7 @@ def main() -> None:
         build_bizjet(folder, progress=progress)
         model = load_assessment_model(folder, settings.cache_folder, progress)
         write_table(model, progress)
+        draw_probability(model, FIGURES / "probability.png", progress)
     limit = model.airframe.definition.masses.maximum_landing
     record = TouchdownRecord(EXAMPLE_AIRCRAFT, (DESIGN_CONTACT,), mass=limit)
     assessment = assess_landing(model, record)

@@ -296,6 +296,9 @@ class VerdictSection(Section):
     overweight_factor: Annotated[float, Field(gt=0, le=1)]  #: on both above maximum landing mass
     roll_limit_deg: Annotated[float, Field(gt=0, le=45)]  #: at a contact, from here INSPECT
     nose_first: Literal["NORMAL", "FIRM", "INSPECT", "HARD"]  #: least verdict, nose gear first
+    #: what a missed exceedance costs over what a needless inspection costs
+    missed_over_needless_cost: Annotated[float, Field(ge=1, le=1e4)] = 20.0
+    hard_probability: Annotated[float, Field(gt=0, lt=1)] = 0.9  #: from here HARD
     #: maker's hard-landing rule: one of the program's by name, or a file (*.toml) in this folder
     makers_rule: Annotated[str, Field(pattern=r"^[\w-][\w.-]{0,99}$")] | None = None
     source: Text = "not stated"
@@ -304,7 +307,31 @@ class VerdictSection(Section):
     def _in_order(self) -> "VerdictSection":
         if self.firm_utilisation >= self.inspect_utilisation:
             raise ValueError("firm_utilisation must be less than inspect_utilisation")
+        if self.hard_probability * (1.0 + self.missed_over_needless_cost) <= 1.0:
+            raise ValueError(
+                "hard_probability must be more than 1 / (1 + missed_over_needless_cost), from "
+                "which a landing is inspected"
+            )
         return self
+
+
+RelativeDeviation = Annotated[float, Field(ge=0, le=0.5)]
+
+
+class ScatterSection(Section):
+    """[scatter]: standard deviations of what nobody records, see `solver.aircraft.scatter`."""
+
+    gas_pressure_relative_sd: RelativeDeviation = 0.05
+    strut_damping_relative_sd: RelativeDeviation = 0.08
+    tyre_stiffness_relative_sd: RelativeDeviation = 0.05
+    tyre_friction_relative_sd: RelativeDeviation = 0.15
+    lift_decay_start_sd_s: Annotated[float, Field(ge=0, le=5)] = 0.125
+    lift_decay_time_relative_sd: RelativeDeviation = 0.25
+    residual_lift_fraction_sd: Annotated[float, Field(ge=0, le=0.5)] = 0.08
+    structural_damping_relative_sd: RelativeDeviation = 0.25
+    allowable_relative_sd: Annotated[float, Field(ge=0, le=0.3)] = 0.0
+    allowable_basis: Literal["limit", "A", "B"] = "limit"
+    source: Text = "not stated"
 
 
 class DefinitionFile(Section):
@@ -320,6 +347,7 @@ class DefinitionFile(Section):
     aerodynamics: AerodynamicsSection
     structure: StructureSection
     verdict: VerdictSection
+    scatter: ScatterSection = ScatterSection()
     gear_types: Annotated[dict[Name, GearTypeSection], Field(min_length=1)]
     gears: Annotated[list[GearSection], Field(min_length=1, max_length=12)]
     tanks: list[MassGroupSection] = []

@@ -33,9 +33,27 @@ class TestGet:
         assert "Advisory only" in answer["advisory"]
         assert service.get(answer["links"]["model"]).json()["aircraft"] == "mini"
 
+    def test_a_soft_landing_has_its_probability(self, service: Service) -> None:
+        """Settled by two pessimistic landings; every hot spot says the same."""
+        service.settings = service.settings.model_copy(update={"propagate_uncertainty": True})
+        answer = service.assessed(record(2.0))
+        result = answer["result"]
+        known = result["limit_probability"]
+        assert result["probability_limit_exceeded"] == known["probability"] == 0.0
+        assert known["basis"] == "corners"
+        assert 0.0 < known["upper"] < 0.05
+        assert "limit_probability" in {reason["code"] for reason in result["reasons"]}
+        spots = service.get(answer["links"]["hot_spots"]).json()["items"]
+        assert {spot["probability_limit_exceeded"] for spot in spots} == {0.0}
+        assert all(spot["probability_standard_error"] > 0.0 for spot in spots)
+
     def test_stored_inputs_give_the_same_answer_again(self, service: Service) -> None:
         result = service.assessed(record(8.0))["result"]
-        again = solve(service.models.get("mini"), inputs.from_json(result["inputs"]))
+        again = solve(
+            service.models.get("mini"),
+            inputs.from_json(result["inputs"]),
+            propagate_uncertainty=service.settings.propagate_uncertainty,
+        )
         assert again.worst_utilisation == result["worst_utilisation"]
         assert again.verdict == result["verdict"]
 

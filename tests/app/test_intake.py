@@ -5,6 +5,7 @@ import math
 from pathlib import Path
 from typing import get_args
 
+import numpy as np
 import pytest
 
 from app.landings import inputs
@@ -14,6 +15,7 @@ from solver import units
 from solver.aircraft.definition import AircraftDefinition
 from solver.aircraft.definition_reader import load_definition
 from solver.landing.contact import LiftModel
+from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
 from solver.units import Dimension, allowed_units, from_si, to_si
 from tests.records import contact, record
 
@@ -183,3 +185,38 @@ class TestFile:
         with pytest.raises(InvalidRecordError) as caught:
             read_record_file(path, aircraft_folder)
         assert said in str(caught.value)
+
+
+class TestUncertainty:
+    def test_deviations_reach_the_solver_in_si(self, mini: AircraftDefinition) -> None:
+        """Foot of 1959 and pound; what the record does not say has the documented default."""
+        taken = take_in(parse_record(record(6.0)), mini).record
+        (known,) = taken.uncertainties
+        deviations = dict(zip(CONTACT_COMPONENTS, np.sqrt(np.diag(known.matrix)), strict=True))
+        assert deviations["sink_rate"] == pytest.approx(0.3048)
+        assert deviations["roll"] == pytest.approx(math.radians(0.5))
+        assert deviations["drift"] == pytest.approx(math.radians(1.0))
+        assert deviations["yaw_rate"] == pytest.approx(math.radians(0.8))
+        assert deviations["lift_fraction"] == pytest.approx(0.1)
+        assert taken.mass_deviation == pytest.approx(250 * 0.45359237)
+        assert taken.centre_of_gravity_deviation == pytest.approx(0.02 * mini.reference.mean_chord)
+
+    def test_a_trimmed_lift_is_as_uncertain_as_its_acceleration(
+        self, mini: AircraftDefinition
+    ) -> None:
+        lift = {
+            "model": "trimmed",
+            "normal_acceleration": {"value": 0.98, "unit": "g", "sd": 0.02},
+        }
+        taken = take_in(parse_record(record(contacts=[contact(lift=lift)])), mini).record
+        assert np.sqrt(taken.uncertainties[0].matrix[8, 8]) == pytest.approx(0.02)
+
+    def test_each_simulated_contact_has_its_own(self, mini: AircraftDefinition) -> None:
+        unknown = contact()
+        del unknown["sink_rate"]
+        taken = take_in(parse_record(record(contacts=[contact(), unknown, contact(3.0)])), mini)
+        assert len(taken.record.contacts) == len(taken.record.uncertainties) == 2
+
+    def test_stored_and_read_again(self, mini: AircraftDefinition) -> None:
+        taken = take_in(parse_record(record()), mini).record
+        assert inputs.from_json(json.loads(json.dumps(inputs.to_json(taken)))) == taken

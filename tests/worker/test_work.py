@@ -6,6 +6,7 @@ import signal
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from sqlalchemy import select, update
@@ -36,7 +37,7 @@ def failing(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Exception], N
     """Make the solver raise."""
 
     def arrange(error: Exception) -> None:
-        def broken(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
+        def broken(model: AssessmentModel, landing: TouchdownRecord, **options: Any) -> Assessment:
             raise error
 
         monkeypatch.setattr(worker.work, "solve", broken)
@@ -99,7 +100,7 @@ def test_a_worker_that_lost_its_claim_leaves_the_database_untouched(service: Ser
     service.work()
     before = service.get(location).json()
     model = service.models.get("mini")
-    assessed = solve(model, worker.work.inputs.from_json(late.inputs))
+    assessed = solve(model, worker.work.inputs.from_json(late.inputs), propagate_uncertainty=False)
     answer = recording.answer(late, assessed, keeps_arrays_from=0.0)
     with writing(service.engine) as session:
         assert recording.record_answers(session, [answer]) == []
@@ -170,10 +171,10 @@ class TestBatch:
     def test_a_failure_takes_nobody_with_it(
         self, service: Service, fast: list[str], monkeypatch: pytest.MonkeyPatch
     ) -> None:
-        def fragile(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
+        def fragile(model: AssessmentModel, landing: TouchdownRecord, **options: Any) -> Assessment:
             if landing.contacts[0].sink_rate == pytest.approx(3.0 * 0.3048):
                 raise EquilibriumError("residual 1e-3")
-            return solve(model, landing)
+            return solve(model, landing, **options)
 
         monkeypatch.setattr(worker.work, "solve", fragile)
         service.work()
@@ -182,8 +183,10 @@ class TestBatch:
     def test_an_answer_that_cannot_be_written_takes_nobody_with_it(
         self, service: Service, fast: list[str], monkeypatch: pytest.MonkeyPatch
     ) -> None:
-        def unwritable(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
-            answer = solve(model, landing)
+        def unwritable(
+            model: AssessmentModel, landing: TouchdownRecord, **options: Any
+        ) -> Assessment:
+            answer = solve(model, landing, **options)
             if landing.contacts[0].sink_rate == pytest.approx(3.0 * 0.3048):
                 return replace(answer, model_hash=None)
             return answer
@@ -200,11 +203,13 @@ class TestBatch:
             session.execute(update(AssessmentJob).values(lane=LANES["bulk"]))
         order: list[float] = []
 
-        def interrupted(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
+        def interrupted(
+            model: AssessmentModel, landing: TouchdownRecord, **options: Any
+        ) -> Assessment:
             order.append(round(landing.contacts[0].sink_rate / 0.3048, 3))
             if len(order) == 1:
                 service.post(record(9.0))
-            return solve(model, landing)
+            return solve(model, landing, **options)
 
         monkeypatch.setattr(worker.work, "solve", interrupted)
         settings = service.settings.model_copy(update={"batch_seconds": 0.0})

@@ -49,6 +49,27 @@ class TestValues:
         assert reference.chord_fraction(9.2316) == pytest.approx(0.0, abs=1e-12)
         assert reference.chord_fraction(9.2316 + 2.6737) == pytest.approx(1.0)
 
+    def test_scatter_and_probabilities_have_defaults_and_may_be_stated(self, tmp_path):
+        defined = changed(tmp_path)
+        assert defined.scatter.gas_pressure == 0.05
+        assert defined.scatter.allowable == 0.0
+        assert defined.verdict.inspect_probability == pytest.approx(1 / 21)
+        stated = changed(
+            tmp_path,
+            (
+                "[verdict]",
+                '[scatter]\ntyre_friction_relative_sd = 0.2\nallowable_basis = "B"\n\n'
+                "[verdict]\nmissed_over_needless_cost = 99",
+            ),
+        )
+        assert stated.scatter.tyre_friction == 0.2
+        assert stated.scatter.allowable_basis.deviations_below_mean == pytest.approx(1.2816, 1e-4)
+        assert stated.verdict.inspect_probability == pytest.approx(0.01)
+
+    def test_hard_may_not_come_before_inspect(self, tmp_path):
+        with pytest.raises(ModelError, match="hard_probability"):
+            changed(tmp_path, ("[verdict]", "[verdict]\nhard_probability = 0.04"))
+
     def test_spring_back_by_frequency(self, tmp_path):
         # k = (2 pi f L)^2 m with L at the stated stroke
         spring = changed(

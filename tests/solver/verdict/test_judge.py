@@ -9,7 +9,15 @@ import pytest
 
 from solver.aircraft.definition import AircraftDefinition
 from solver.aircraft.definition_reader import load_definition
-from solver.assessment import GearLoad, HotSpot, TouchdownRecord, Verdict
+from solver.assessment import (
+    GearLoad,
+    HotSpot,
+    LimitProbability,
+    ProbabilityBasis,
+    Reason,
+    TouchdownRecord,
+    Verdict,
+)
 from solver.landing.contact import Contact
 from solver.landing.history import (
     EnergyAccount,
@@ -219,3 +227,68 @@ def test_reasons_come_most_severe_first(definition: AircraftDefinition) -> None:
         Verdict.FIRM,
         Verdict.NORMAL,
     ]
+
+
+def likelihood(
+    probability: float, basis: ProbabilityBasis = ProbabilityBasis.SAMPLES
+) -> LimitProbability:
+    return LimitProbability(probability, 0.01, 0.0, max(probability, 0.016), 256, 0, basis)
+
+
+class TestProbability:
+    def reason(self, definition: AircraftDefinition, known: LimitProbability) -> Reason:
+        (found,) = (
+            reason
+            for reason in judge(
+                definition,
+                TouchdownRecord("mini", (CONTACT,)),
+                10_000.0,
+                [history(("main_left", 0.0))],
+                [load()],
+                spot(0.3),
+                known,
+            )
+            if "probab" in reason.text
+        )
+        return found
+
+    def test_the_threshold_weighs_a_missed_landing_against_a_needless_look(
+        self, definition: AircraftDefinition
+    ) -> None:
+        """Not looking costs 20 p, looking 1 (1 - p): equal at p = 1 / 21."""
+        assert definition.verdict.inspect_probability == pytest.approx(1 / 21)
+
+    @pytest.mark.parametrize(
+        ("probability", "verdict"),
+        [
+            (0.0, Verdict.NORMAL),
+            (0.047, Verdict.NORMAL),
+            (0.048, Verdict.INSPECT),
+            (0.89, Verdict.INSPECT),
+            (0.9, Verdict.HARD),
+            (1.0, Verdict.HARD),
+        ],
+    )
+    def test_probabilities_have_their_verdicts(
+        self, definition: AircraftDefinition, probability: float, verdict: Verdict
+    ) -> None:
+        assert self.reason(definition, likelihood(probability)).verdict is verdict
+
+    def test_the_reason_says_what_it_rests_on(self, definition: AircraftDefinition) -> None:
+        sampled = self.reason(definition, likelihood(0.1)).text
+        assert "10.0%" in sampled
+        assert "256 simulated landings" in sampled
+        settled = self.reason(definition, likelihood(0.0, ProbabilityBasis.CORNERS)).text
+        assert "0 (at most 1.6%" in settled
+
+    def test_a_low_probability_lowers_no_verdict(self, definition: AircraftDefinition) -> None:
+        reasons = judge(
+            definition,
+            TouchdownRecord("mini", (CONTACT,)),
+            10_000.0,
+            [history(("main_left", 0.0))],
+            [load()],
+            spot(0.9),
+            likelihood(0.0),
+        )
+        assert severest(reasons) is Verdict.INSPECT
