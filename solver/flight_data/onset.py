@@ -21,6 +21,9 @@ class Indicator:
 #: Time over which the load of a gear comes up: tyre first, then the preload of the strut [s].
 _RISES = (0.01, 0.02, 0.04, 0.07, 0.12)
 
+#: Parts of the time between the touches of two gears that are added to each.
+_DRAWN_OUT = (0.0, 0.3, 0.6, 0.8, 1.0)
+
 #: How far the true course of a shock leaves the template, per unit of its height.
 _MISFIT = 0.1
 
@@ -61,7 +64,7 @@ def rise_onset(
     sign: float,
     noise: float,
     until: float,
-    slow: bool = False,
+    apart: float = 0.0,
 ) -> Indicator | None:
     """Time at which a recorded quantity began to rise (sign +1) or to fall (sign -1).
 
@@ -76,8 +79,8 @@ def rise_onset(
         Least scatter of the quantity before the shock, in its unit.
     until : float
         Later samples show the oleo's course and not the onset [s].
-    slow : bool
-        A soft touch may precede the shock: after a bounce the sink is low and one gear is first.
+    apart : float
+        Time between the touches of two gears, over which the rise is drawn out [s].
 
     Returns
     -------
@@ -100,7 +103,7 @@ def rise_onset(
     height = float(shown.max())
     if height < 2.0 * scatter:
         return None
-    return _posterior(name, series, grid, time[during], shown, scatter, height, slow)
+    return _posterior(name, series, grid, time[during], shown, scatter, height, apart)
 
 
 def _posterior(
@@ -111,11 +114,11 @@ def _posterior(
     shown: Array,
     scatter: float,
     height: float,
-    slow: bool,
+    apart: float,
 ) -> Indicator:
     """Likelihood of each onset, averaged over rise times and heights."""
     since = time[None, None, :] - grid[:, None, None]
-    rises = np.array(_RISES)[None, :, None]
+    rises = np.array(_RISES)[None, :, None] + apart * np.array(_DRAWN_OUT)[None, :, None]
     response = ramp_response(since, rises, series.entry.corner.value)
     likelihoods = []
     for factor in _HEIGHTS:
@@ -128,10 +131,7 @@ def _posterior(
     # The rest of what the template leaves open grows with the time between samples.
     spread = float(np.hypot(series.entry.delay_scatter.value, _SPREAD * series.interval))
     log = blurred(log, grid, spread)
-    # The mean time by which the soft touch comes first; longer with fewer samples to show it.
-    return indicator(
-        name, grid, preceded(log, grid, 0.02 + 0.25 * series.interval) if slow else log
-    )
+    return indicator(name, grid, log)
 
 
 def blurred(log_likelihood: Array, grid: Array, sd: float) -> Array:
@@ -140,14 +140,6 @@ def blurred(log_likelihood: Array, grid: Array, sd: float) -> Array:
         return log_likelihood
     weight = np.exp(log_likelihood - log_likelihood.max())
     kernel = np.exp(-0.5 * ((grid[:, None] - grid[None, :]) / sd) ** 2)
-    return np.asarray(np.log(kernel @ weight + 1e-300))
-
-
-def preceded(log_likelihood: Array, grid: Array, mean: float) -> Array:
-    """Log likelihood of an event that comes before another by an exponentially distributed time."""
-    weight = np.exp(log_likelihood - log_likelihood.max())
-    earlier = grid[None, :] - grid[:, None]
-    kernel = np.where(earlier >= 0, np.exp(-np.maximum(earlier, 0.0) / mean), 0.0)
     return np.asarray(np.log(kernel @ weight + 1e-300))
 
 
