@@ -63,7 +63,7 @@ _LEFT_OF_DEVIATION = 0.65
 _MOST_DEVIATIONS = 4.0
 
 #: What the end of a hop leaves open besides what the vote knows [s].
-_HOP_SD = 0.05
+_HOP_SD = 0.022
 
 #: Slowest and latest touch of the other main gear that is reckoned with [m/s, s].
 _LEAST_SPEED, _MOST_APART = 0.2, 0.4
@@ -168,10 +168,13 @@ def _came_down(
     one_off: float,
 ) -> ContactTime | None:
     """Time of the contact that a rise shows: of the lowest wheel after a hop, else of the other."""
-    around = (max(rise.time - normal.interval - 0.35, first.time + 0.2), rise.time + 0.05)
     is_hop = hop > _LEAST_ODDS
     height = heights.low if is_hop else heights.high
     at = int(np.searchsorted(heights.time, rise.time))
+    # From the top of the hop on, or a little before where that is not plain.
+    top = float(heights.time[max(at - 50, 0) + int(np.argmax(height[max(at - 50, 0) : at]))])
+    start = min(top - 0.05, rise.time - normal.interval - 0.1)
+    around = (max(start, first.time + 0.2), rise.time + 0.05)
     speed = float(height[at - 10] - height[at - 4]) / 0.06
     apart = 0.0
     if is_hop:

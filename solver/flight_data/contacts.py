@@ -150,9 +150,9 @@ def timed(
     normal: Series,
     around: tuple[float, float],
     kind: ContactKind,
-    height: tuple[Array, Array, Array] | None,
-    rise: Rise | None,
-    apart: float = 0.0,
+    height: tuple[Array, Array, Array],
+    rise: Rise,
+    apart: float,
 ) -> ContactTime | None:
     """Let the indicators vote on the time of a later contact; None if none of them speaks.
 
@@ -164,21 +164,20 @@ def timed(
     around : (float, float)
         First and last time considered [s].
     kind : ContactKind
-    height : ((n,), (n,), (n,)), optional
+    height : ((n,), (n,), (n,))
         Time, smoothed height of the wheel and its standard deviation [s, m, m].
-    rise : Rise, optional
+    rise : Rise
         Of the normal acceleration, that belongs to it.
     apart : float
         Time by which the other main gear comes down later, by the roll angle [s].
     """
     grid = np.arange(*around, STEP)
-    indicators: list[Indicator | None] = []
-    if rise is not None:
-        indicators.append(rise_onset(ONSET, normal, grid, 1.0, GUST, rise.time + 0.08, apart))
-    indicators.append(switch_indicator("ground switches", main_switches(window), grid))
-    if height is not None:
-        course = (np.interp(grid, height[0], h) for h in height[1:])
-        indicators.append(height_indicator("wheel height", grid, *course))
+    course = (np.interp(grid, height[0], h) for h in height[1:])
+    indicators: list[Indicator | None] = [
+        rise_onset(ONSET, normal, grid, GUST, rise.time + 0.08, apart),
+        switch_indicator("ground switches", main_switches(window), grid),
+        height_indicator("wheel height", grid, *course),
+    ]
     speaking = [each for each in indicators if each is not None]
     if not speaking:
         return None

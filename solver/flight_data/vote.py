@@ -125,7 +125,7 @@ _LEAST_SPEED = 0.1
 
 
 def height_indicator(name: str, grid: Array, height: Array, sd: Array) -> Indicator | None:
-    """Weigh a smoothed wheel height: the contact is where it passes zero.
+    """Weigh a smoothed wheel height: the contact is where it passes zero at its speed.
 
     Parameters
     ----------
@@ -135,4 +135,5 @@ def height_indicator(name: str, grid: Array, height: Array, sd: Array) -> Indica
     """
     if not (height.min() < 3 * sd.max() and height.max() > -3 * sd.max()):
         return None
-    return indicator(name, grid, -0.5 * (height / sd) ** 2)
+    speed = np.maximum(-np.gradient(height, grid), _LEAST_SPEED)
+    return indicator(name, grid, -0.5 * (height / sd) ** 2 + np.log(speed))
