@@ -46,6 +46,10 @@ _APART = 0.2
 #: Before and after a hypothesis in which its indicators are compared [s].
 _AROUND = (0.3, 0.25)
 
+#: Power of the likelihoods: those of models that are not quite right are too sure of themselves
+#: (tempering; P. D. Gruenwald, T. van Ommen, Bayesian Analysis 12 (2017) 1069).
+_TEMPER = 0.5
+
 #: Less likely hypotheses are left out.
 _LEAST_CHANCE = 0.003
 
@@ -119,8 +123,7 @@ def _weighed(
     weight /= weight.sum()
     found = []
     for start, end in _hypotheses(total):
-        # Likelihoods of models that are not quite right are too sure: their root is taken.
-        chance = float(np.sqrt(weight[start:end].sum()))
+        chance = float(weight[start:end].sum() ** _TEMPER)
         if chance > _LEAST_CHANCE:
             peak = float(grid[start + int(np.argmax(total[start:end]))])
             found.append(Hypothesis(_timed(window, grid, height, shocks, peak), chance))
@@ -157,7 +160,7 @@ def _hypotheses(total: Array) -> list[tuple[int, int]]:
     apart = round(_APART / _STEP)
     peaks: list[int] = []
     for k in np.argsort(-total):
-        if total[k] < total.max() - 8.0:
+        if total[k] < total.max() + np.log(_LEAST_CHANCE) / _TEMPER:
             break
         if all(abs(k - other) >= apart for other in peaks):
             peaks.append(int(k))
