@@ -24,7 +24,7 @@ from solver.flight_data.window import Window
 #: little: the accelerometer is taken at the same height.
 _ABOVE_PIVOTS = 0.5
 
-#: After a contact in which its peaks of normal and lateral acceleration fall [s].
+#: How long after the last wheel came down peaks of the accelerations may still fall [s].
 _PEAK_SPAN = 0.6
 
 #: A record lists no more contacts.
@@ -33,7 +33,7 @@ _MOST_CONTACTS = 12
 _FIRST_GEAR = {Place.LEFT: "ML", Place.RIGHT: "MR", Place.NOSE: "N"}
 
 #: The landing simulation brings the other wheels down by itself.
-_FOLLOWING = (ContactKind.DEROTATION, ContactKind.MAINS)
+_FOLLOWING = (ContactKind.DEROTATION, ContactKind.MAINS, ContactKind.ONE_GEAR)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,12 +114,29 @@ def _record(
     landed = [c for c in found.contacts if c.kind not in _FOLLOWING][:_MOST_CONTACTS]
     places = {wheel.gear: wheel.place for wheel in geometry.wheels}
     # A window that cannot tell is a landing all the same: one contact of which nothing is known.
-    record["contacts"] = [_contact(c, landed[0], window, places) for c in landed] or [{}]
+    record["contacts"] = [
+        _contact(contact, landed[0], _peaks_until(contact, landed, found.contacts), window, places)
+        for contact in landed
+    ] or [{}]
     return record
 
 
+def _peaks_until(
+    contact: FoundContact, landed: list[FoundContact], every: tuple[FoundContact, ...]
+) -> float:
+    """Time up to which peaks are those of a contact: the next one, or the last wheel down [s]."""
+    later = [other.time for other in landed if other.time > contact.time]
+    if later:
+        return min(later)
+    return max(other.time for other in every) + _PEAK_SPAN
+
+
 def _contact(
-    contact: FoundContact, first: FoundContact, window: Window, places: dict[str, Place]
+    contact: FoundContact,
+    first: FoundContact,
+    peaks_until: float,
+    window: Window,
+    places: dict[str, Place],
 ) -> dict[str, Any]:
     state = contact.state
     sink = state.sink_rate
@@ -149,7 +166,7 @@ def _contact(
         channel = window.first(parameter)
         if channel is None:
             continue
-        inside = (channel.time > contact.time) & (channel.time < contact.time + _PEAK_SPAN)
+        inside = (channel.time > contact.time) & (channel.time < peaks_until)
         if np.any(inside):
             values = channel.value[inside]
             peak = float(values[np.argmax(size(values))])
