@@ -43,6 +43,7 @@ class TouchdownRecord:
     missing: tuple[str, ...] = ()  #: names of what the record lacks for a verdict
     recorded: tuple[RecordedContact, ...] = ()  #: every contact, with unknown state or without
     uncertainties: tuple[ContactUncertainty, ...] = ()  #: of each of `contacts`, or empty: not said
+    unexplained: tuple[str, ...] = ()  #: recorded responses that no landing as believed can give
 
 
 @dataclass(frozen=True, slots=True)

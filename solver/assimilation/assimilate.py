@@ -45,18 +45,27 @@ class ContactUpdate:
         return None if self.corrected is None else self.corrected.misfit
 
     @property
+    def is_corrected(self) -> bool:
+        """Whether the state to go on with is the corrected one."""
+        return self.corrected is not None and not self.unchanged_because
+
+    @property
     def contact(self) -> Contact:
         """The state to go on with: corrected only by a response that can be explained."""
-        if self.corrected is None or self.unchanged_because:
-            return self.prior
-        return self.corrected.contact
+        return self.corrected.contact if self.corrected and self.is_corrected else self.prior
 
     @property
     def uncertainty(self) -> ContactUncertainty:
         """Of `contact`."""
-        if self.corrected is None or self.unchanged_because:
-            return self.prior_uncertainty
-        return self.corrected.uncertainty
+        if self.corrected and self.is_corrected:
+            return self.corrected.uncertainty
+        return self.prior_uncertainty
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """Standard deviation of each parameter by name, after the update; empty without one."""
+        parameters = () if self.corrected is None else self.corrected.parameters
+        return {parameter.name: parameter.posterior_sd for parameter in parameters}
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +127,7 @@ def assimilate(
     Assimilation
         One update for each contact out of the air; the wheels that follow belong to it.
     """
-    landed = [found for found in reconstruction.contacts if found.kind not in FOLLOWING]
+    landed = _landed(reconstruction)
     ends = [following.time for following in landed[1:]] + [np.inf]
     return Assimilation(
         tuple(
@@ -142,6 +151,25 @@ def assimilate(
     )
 
 
+def uncorrected(reconstruction: Reconstruction, why: str) -> Assimilation:
+    """Contacts as they are known without their responses; ``why`` nothing was compared."""
+    landed = _landed(reconstruction)
+    return Assimilation(
+        tuple(
+            ContactUpdate(found, contact_of(found, landed[0].time), _known(found), None, why)
+            for found in landed
+        )
+    )
+
+
+def _landed(reconstruction: Reconstruction) -> list[FoundContact]:
+    return [found for found in reconstruction.contacts if found.kind not in FOLLOWING]
+
+
+def _known(found: FoundContact) -> ContactUncertainty:
+    return ContactUncertainty.from_matrix(found.state.covariance)
+
+
 def contact_of(found: FoundContact, first_time: float) -> Contact:
     """Contact as reconstructed, within the range that a contact may have."""
     values = np.array([getattr(found.state, name).value for name in CONTACT_COMPONENTS])
@@ -159,8 +187,7 @@ def _updated(
     answer, why = _answer(window, reconstruction, found, believed, span, model_error)
     if answer is not None and not answer.misfit.is_explained:
         why = "the stated uncertainties cannot explain the recorded response"
-    uncertainty = ContactUncertainty.from_matrix(found.state.covariance)
-    return ContactUpdate(found, believed.contact, uncertainty, answer, why)
+    return ContactUpdate(found, believed.contact, _known(found), answer, why)
 
 
 def _answer(

@@ -3,19 +3,24 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import chi2
 
 from solver.arrays import Array
 from solver.assimilation.forward import LandingPrediction
-from solver.assimilation.misfit import Misfit, misfit_of
+from solver.assimilation.misfit import Misfit, ParameterUpdate, misfit_of, pull
 from solver.assimilation.samples import Response
-from solver.assimilation.state import INSTANT, Believed, Prior, prior, simulated
-from solver.assimilation.update import Update, gauss_newton, mixed, widened
+from solver.assimilation.state import INSTANT, Believed, Prior, prior, simulated, unit_of
+from solver.assimilation.update import Update, gauss_newton, mixed, twice_cost, widened
 from solver.landing.contact import Contact
 from solver.landing.contact_uncertainty import CONTACT_COMPONENTS, ContactUncertainty
 
-#: Where the instant is tried first, in its standard deviations: no simulation is needed for that,
-#: and a wrong one puts the samples onto another flank of the shock.
+#: Where the iteration may begin, in standard deviations: which wheel touches first, and when,
+#: decides on which flank of the shock each sample lies.
+_ROLLS = (0.0, -1.5, 1.5)
 _INSTANTS = np.linspace(-2.5, 2.5, 11)
+
+#: Probability of a misfit below which another beginning is tried.
+_POOR = 0.05
 
 #: The other way of touching is tried if its roll is no further off, in standard deviations.
 _PLAUSIBLE = 3.5
@@ -25,17 +30,6 @@ _LEVEL = 0.3
 
 _STATE = len(CONTACT_COMPONENTS)
 _ROLL = CONTACT_COMPONENTS.index("roll")
-
-
-@dataclass(frozen=True, slots=True)
-class ParameterUpdate:
-    """One parameter before and after."""
-
-    name: str
-    prior: float
-    prior_sd: float
-    posterior: float
-    posterior_sd: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,19 +66,25 @@ def corrected(believed: Believed, response: Response, span: float) -> CorrectedC
     after = None if update is None else prediction.by_channel(update.parameters)
     if update is None or before is None or after is None:
         return None
+    parameters = _parameters(start, update)
     return CorrectedContact(
         contact=simulated(start, start.named(update.parameters))[1],
         uncertainty=_uncertainty(start.covariance(update.covariance)),
-        parameters=_parameters(start, update),
-        misfit=misfit_of(response, update, before, after),
+        parameters=parameters,
+        misfit=misfit_of(response, update, parameters, before, after),
     )
 
 
 def _found(start: Prior, prediction: LandingPrediction, response: Response) -> Update | None:
     """Posterior, with the other wheel first as well where that may have been."""
     measured, whiten = response.measured, response.whiten
-    begin = _best_instant(start, prediction, measured, whiten)
-    found = None if begin is None else gauss_newton(prediction, measured, whiten, begin)
+    found = None
+    for begin in _beginnings(start, prediction, measured, whiten):
+        other = gauss_newton(prediction, measured, whiten, begin)
+        if found is None or (other is not None and other.chi_square < found.chi_square):
+            found = other
+        if found is not None and chi2.sf(found.chi_square, len(measured)) > _POOR:
+            break
     if found is None:
         return None
     found = widened(prediction, whiten, found)
@@ -96,23 +96,26 @@ def _found(start: Prior, prediction: LandingPrediction, response: Response) -> U
     if abs(roll) < _LEVEL * scale or abs(mirrored[_ROLL]) > _PLAUSIBLE:
         return found
     other = gauss_newton(prediction, measured, whiten, mirrored)
-    return found if other is None else mixed(found, widened(prediction, whiten, other))
+    return found if other is None else mixed(found, other)
 
 
-def _best_instant(
+def _beginnings(
     start: Prior, prediction: LandingPrediction, measured: Array, whiten: Array
-) -> Array | None:
-    best, least = None, np.inf
-    for guess in _INSTANTS:
-        trial = np.zeros(len(start.names))
-        trial[start.names.index(INSTANT)] = guess
-        predicted = prediction(trial)
-        if predicted is None:
-            return None
-        residual = whiten @ (measured - predicted)
-        if (cost := float(residual @ residual) + guess**2) < least:
-            best, least = trial, cost
-    return best
+) -> list[Array]:
+    """Best instant for each roll that is tried, the most promising roll first."""
+    instant = start.names.index(INSTANT)
+    found = []
+    for roll in _ROLLS:
+        trials = np.zeros((len(_INSTANTS), len(start.names)))
+        trials[:, _ROLL], trials[:, instant] = roll, _INSTANTS
+        costs = [_cost(prediction, measured, whiten, trial) for trial in trials]
+        found.append((min(costs), trials[int(np.argmin(costs))]))
+    return [trial for _, trial in sorted(found, key=lambda each: each[0])]
+
+
+def _cost(prediction: LandingPrediction, measured: Array, whiten: Array, trial: Array) -> float:
+    predicted = prediction(trial)
+    return np.inf if predicted is None else twice_cost(trial, predicted, measured, whiten)
 
 
 def _uncertainty(covariance: Array) -> ContactUncertainty:
@@ -121,10 +124,22 @@ def _uncertainty(covariance: Array) -> ContactUncertainty:
 
 
 def _parameters(start: Prior, update: Update) -> tuple[ParameterUpdate, ...]:
-    before = np.sqrt(np.diag(start.covariance(np.eye(len(start.names)))))
+    identity = np.eye(len(start.names))
+    before = np.sqrt(np.diag(start.covariance(identity)))
     after = np.sqrt(np.diag(start.covariance(update.covariance)))
+    # A move scatters by what the samples took off the variance, and off no more than the tangent
+    # says.
+    taken = np.diag(start.covariance(identity - update.straight))
     values = start.named(update.parameters)
     return tuple(
-        ParameterUpdate(name, float(mean), float(prior_sd), values[name], float(sd))
-        for name, mean, prior_sd, sd in zip(start.names, start.mean, before, after, strict=True)
+        ParameterUpdate(
+            name,
+            unit_of(name),
+            float(start.mean[index]),
+            float(before[index]),
+            values[name],
+            float(after[index]),
+            pull(values[name] - start.mean[index], before[index], taken[index]),
+        )
+        for index, name in enumerate(start.names)
     )

@@ -5,6 +5,7 @@ delay give the expected value of a sample, for stated errors.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -84,8 +85,23 @@ class SensorCourses:
             else:
                 roll, pitch, _ = euler_from_quaternion(self._motion.attitude)
                 course = roll if entry.parameter is Parameter.ROLL else pitch
-            self._filtered[key] = anti_aliased(course, entry.corner.value, self._motion.interval)
+            self._filtered[key] = _filtered(course, entry.corner.value, self._motion.interval)
         return self._filtered[key]
+
+
+def _filtered(course: Array, corner: float, interval: float) -> Array:
+    """As `anti_aliased`, by convolution: its coefficients are dearer than a short course."""
+    if corner <= 0.0:
+        return course
+    answer = _impulse_answer(corner, interval, len(course))
+    return np.asarray(course[0] + np.convolve(course - course[0], answer)[: len(course)])
+
+
+@lru_cache(maxsize=64)
+def _impulse_answer(corner: float, interval: float, count: int) -> Array:
+    impulse = np.zeros(count + 1)
+    impulse[1] = 1.0  # the first value is that at rest
+    return anti_aliased(impulse, corner, interval)[1:]
 
 
 def mean_specific_force(motion: Motion, point: Array) -> Array:

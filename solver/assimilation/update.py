@@ -2,7 +2,7 @@
 
 Minimises ``J(z) = (z'z + (y - h(z))' R^-1 (y - h(z))) / 2`` over parameters ``z`` that are
 independent and of unit variance a priori, by the method of Gauss and Newton with Levenberg's
-damping.
+damping; derivatives are kept up by Broyden's update between simulations of all of them.
 
 Notes
 -----
@@ -28,7 +28,10 @@ _STEP = 0.2
 #: The iteration ends when a step promises to lower ``2 J`` by less than this: no test could tell.
 _CONVERGED = 0.1
 
-_MOST_ITERATIONS = 10
+_MOST_ITERATIONS = 12
+
+#: Share of the promised gain above which the derivatives need not be computed again.
+_KEPT = 0.6
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,9 +40,16 @@ class Update:
 
     parameters: Array  #: (n,) z at the minimum
     covariance: Array  #: (n, n) of z
+    straight: Array  #: (n, n) the same for the tangent at the minimum alone
     predicted: Array  #: (m,)
     chi_square: float  #: 2 J
     effective: float  #: measurements that the parameters took up, trace of the influence matrix
+
+
+def twice_cost(here: Array, predicted: Array, measured: Array, whiten: Array) -> float:
+    """``2 J`` of parameters (n,) with what they predict (m,)."""
+    residual = whiten @ (measured - predicted)
+    return float(here @ here + residual @ residual)
 
 
 def gauss_newton(
@@ -66,26 +76,37 @@ def gauss_newton(
     if predicted is None:
         return None
     jacobian = _jacobian(prediction, here, predicted, whiten)
-    twice_cost = _twice_cost(here, predicted, measured, whiten)
-    damping = 0.0
+    least = twice_cost(here, predicted, measured, whiten)
+    is_fresh, damping = True, 0.0
     for _ in range(_MOST_ITERATIONS):
         right = jacobian.T @ (whiten @ (measured - predicted)) - here
-        step = np.linalg.solve((1.0 + damping) * identity + jacobian.T @ jacobian, right)
+        normal = identity + jacobian.T @ jacobian
         # What a whole step would gain: a short one must not pass for the end.
-        whole = np.linalg.solve(identity + jacobian.T @ jacobian, right)
-        if float(whole @ right) < _CONVERGED:
+        if float(np.linalg.solve(normal, right) @ right) < _CONVERGED:
             break
+        step = np.linalg.solve(normal + damping * identity, right)
+        promised = float(step @ (2.0 * right - normal @ step))
         trial = prediction(here + step)
-        if trial is None or _twice_cost(here + step, trial, measured, whiten) > twice_cost:
-            damping = max(4.0 * damping, 1.0)
+        cost = np.inf if trial is None else twice_cost(here + step, trial, measured, whiten)
+        if trial is None or cost >= least:
+            if is_fresh:
+                damping = max(4.0 * damping, 1.0)
+            else:
+                jacobian = _jacobian(prediction, here, predicted, whiten)
+                is_fresh = True
             continue
-        here, predicted = here + step, trial
-        twice_cost = _twice_cost(here, predicted, measured, whiten)
+        # Broyden's rank-one update serves as long as steps gain what they promise.
+        is_fresh = least - cost < _KEPT * promised
+        moved = whiten @ (trial - predicted)
+        here, predicted, least = here + step, trial, cost
         damping = damping / 4.0 if damping > 0.3 else 0.0
-        jacobian = _jacobian(prediction, here, predicted, whiten)
+        if is_fresh:
+            jacobian = _jacobian(prediction, here, predicted, whiten)
+        else:
+            jacobian = jacobian + np.outer(moved - jacobian @ step, step) / (step @ step)
     covariance = np.asarray(np.linalg.inv(identity + jacobian.T @ jacobian), dtype=np.float64)
     influence = float(np.trace(jacobian @ covariance @ jacobian.T))
-    return Update(here, covariance, predicted, twice_cost, influence)
+    return Update(here, covariance, covariance, predicted, least, influence)
 
 
 def widened(prediction: Prediction, whiten: Array, update: Update) -> Update:
@@ -111,8 +132,14 @@ def widened(prediction: Prediction, whiten: Array, update: Update) -> Update:
         slopes[:, index] = whiten @ (above - below) / (2.0 * width)
         bends[:, index] = whiten @ (above + below - 2.0 * update.predicted) / 2.0
     error = np.eye(len(update.predicted)) + 2.0 * bends @ bends.T
-    information = np.eye(count) + slopes.T @ np.linalg.solve(error, slopes)
-    return replace(update, covariance=np.asarray(np.linalg.inv(information), dtype=np.float64))
+    straight = np.linalg.inv(np.eye(count) + slopes.T @ slopes)
+    wide = np.linalg.inv(np.eye(count) + slopes.T @ np.linalg.solve(error, slopes))
+    return replace(
+        update,
+        covariance=np.asarray(wide, dtype=np.float64),
+        straight=np.asarray(straight, dtype=np.float64),
+        effective=float(np.trace(slopes @ straight @ slopes.T)),
+    )
 
 
 def mixed(one: Update, other: Update) -> Update:
@@ -130,11 +157,6 @@ def mixed(one: Update, other: Update) -> Update:
     weight = 1.0 / (1.0 + np.exp(-odds))
     spread = rival.covariance + np.outer(apart, apart)
     return replace(likely, covariance=(1.0 - weight) * likely.covariance + weight * spread)
-
-
-def _twice_cost(here: Array, predicted: Array, measured: Array, whiten: Array) -> float:
-    residual = whiten @ (measured - predicted)
-    return float(here @ here + residual @ residual)
 
 
 def _jacobian(prediction: Prediction, here: Array, predicted: Array, whiten: Array) -> Array:

@@ -193,6 +193,13 @@ def _gaps(record: TouchdownRecord, histories: Sequence[LandingHistory]) -> Itera
             text="the record lacks " + "; ".join(record.missing),
             verdict=Verdict.UNDETERMINED,
         )
+    if record.unexplained:
+        yield Reason(
+            code="recorded_response_unexplained",
+            text="the stated uncertainties cannot explain what was recorded after the contact: "
+            + "; ".join(record.unexplained),
+            verdict=Verdict.UNDETERMINED,
+        )
     for number, history in enumerate(histories, 1):
         if history.outcome is Outcome.TIME_LIMIT and not history.contacts:
             yield Reason(
