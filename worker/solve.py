@@ -5,6 +5,7 @@ from solver.assess import AssessmentModel, assess_landing, judge_by_rule
 from solver.assessment import Assessment, Reason, Timing, TouchdownRecord, Verdict
 from solver.errors import SolverError
 from solver.verdict.action import combine
+from solver.verdict.judge import record_gaps
 
 
 def solve(model: AssessmentModel, record: TouchdownRecord) -> Assessment:
@@ -26,7 +27,10 @@ def undetermined(model: AssessmentModel, record: TouchdownRecord, error: SolverE
         action=action,
         rule_difference=difference,
         makers_rule=rule,
-        reasons=(Reason("inadmissible_record", str(error), Verdict.UNDETERMINED),),
+        reasons=(
+            Reason("inadmissible_record", str(error), Verdict.UNDETERMINED),
+            *record_gaps(record),
+        ),
         probability_limit_exceeded=None,
         driving_contact=None,
         worst_utilisation=nothing,

@@ -19,8 +19,10 @@ from solver.landing.contact_uncertainty import CONTACT_COMPONENTS, ContactUncert
 _ROLLS = (0.0, -1.5, 1.5)
 _INSTANTS = np.linspace(-2.5, 2.5, 11)
 
-#: Probability of a misfit below which another beginning is tried.
+#: Probability of a misfit below which another beginning is tried, and chi-square over the number
+#: of samples above which none would help.
 _POOR = 0.05
+_HOPELESS = 10.0
 
 #: The other way of touching is tried if its roll is no further off, in standard deviations.
 _PLAUSIBLE = 3.5
@@ -83,10 +85,13 @@ def _found(start: Prior, prediction: LandingPrediction, response: Response) -> U
         other = gauss_newton(prediction, measured, whiten, begin)
         if found is None or (other is not None and other.chi_square < found.chi_square):
             found = other
-        if found is not None and chi2.sf(found.chi_square, len(measured)) > _POOR:
+        if found is None:
+            continue
+        is_good = chi2.sf(found.chi_square, len(measured)) > _POOR
+        if is_good or found.chi_square > _HOPELESS * len(measured):
             break
-    if found is None:
-        return None
+    if found is None or found.chi_square > _HOPELESS * len(measured):
+        return found
     found = widened(prediction, whiten, found)
     # Accelerations show how long after the first wheel the second came, but hardly which it was.
     scale = start.root[_ROLL, _ROLL]

@@ -185,8 +185,8 @@ def _conditions(
         )
 
 
-def _gaps(record: TouchdownRecord, histories: Sequence[LandingHistory]) -> Iterator[Reason]:
-    """Return what keeps the record, or its simulation, from carrying a verdict."""
+def record_gaps(record: TouchdownRecord) -> Iterator[Reason]:
+    """Return what keeps the record from carrying a verdict, whatever its simulation says."""
     if record.missing:
         yield Reason(
             code="record_incomplete",
@@ -200,6 +200,11 @@ def _gaps(record: TouchdownRecord, histories: Sequence[LandingHistory]) -> Itera
             + "; ".join(record.unexplained),
             verdict=Verdict.UNDETERMINED,
         )
+
+
+def _gaps(record: TouchdownRecord, histories: Sequence[LandingHistory]) -> Iterator[Reason]:
+    """Return what keeps the record, or its simulation, from carrying a verdict."""
+    yield from record_gaps(record)
     for number, history in enumerate(histories, 1):
         if history.outcome is Outcome.TIME_LIMIT and not history.contacts:
             yield Reason(

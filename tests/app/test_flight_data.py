@@ -36,15 +36,15 @@ def post(service: Service, content: str | bytes, **query: str) -> httpx2.Respons
     )
 
 
-def shaken(window: Window) -> Window:
-    """Window whose normal acceleration swings after the contact as no landing does."""
+def exaggerated(window: Window) -> Window:
+    """Window whose normal acceleration shows three times what happened after the contact."""
 
     def swung(channel: Channel) -> Channel:
         if channel.parameter is not Parameter.NORMAL_ACCELERATION:
             return channel
-        after = (channel.time > 0.2) & (channel.time < 1.0)
-        swing = 0.5 * np.sin(2 * np.pi * 3.0 * channel.time)
-        return replace(channel, value=np.where(after, channel.value + swing, channel.value))
+        after = (channel.time > 0.0) & (channel.time < 1.0)
+        value = 1.0 + 3.0 * (channel.value - 1.0)
+        return replace(channel, value=np.where(after, value, channel.value))
 
     return replace(window, channels=tuple(swung(channel) for channel in window.channels))
 
@@ -89,7 +89,7 @@ class TestPost:
     def test_a_response_that_cannot_be_explained_is_undetermined(
         self, service: Service, landing: SyntheticLanding
     ) -> None:
-        text = long_form(shaken(landing.window))
+        text = long_form(exaggerated(landing.window))
         answer = post(service, text, frame=FRAME).json()
         first = answer["contacts"][0]
         assert not first["response"]["is_explained"]
