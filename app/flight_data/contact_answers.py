@@ -3,7 +3,6 @@
 from pydantic import BaseModel, Field
 
 from solver.assimilation.assimilate import ContactUpdate
-from solver.assimilation.misfit import Misfit, ParameterUpdate
 from solver.flight_data.reconstruction import FoundContact
 
 
@@ -92,12 +91,15 @@ def contact_found(found: FoundContact, update: ContactUpdate | None) -> ContactF
     answer.sink_rate_m_s = update.contact.sink_rate
     answer.sink_rate_sd_m_s = float(update.uncertainty.matrix[0, 0] ** 0.5)
     answer.response_unused_because = update.unchanged_because or None
-    if update.corrected is not None:
-        answer.response = _compared(update.corrected.misfit, update.corrected.parameters)
+    answer.response = response_compared(update)
     return answer
 
 
-def _compared(misfit: Misfit, parameters: tuple[ParameterUpdate, ...]) -> ResponseCompared:
+def response_compared(update: ContactUpdate) -> ResponseCompared | None:
+    """Answer the check of a response, None where nothing could be compared."""
+    if update.corrected is None:
+        return None
+    misfit, parameters = update.corrected.misfit, update.corrected.parameters
     peak = misfit.peak
     return ResponseCompared(
         is_explained=misfit.is_explained,
