@@ -228,14 +228,26 @@ def _conditions(
         )
 
 
-def _gaps(record: TouchdownRecord, histories: Sequence[LandingHistory]) -> Iterator[Reason]:
-    """Return what keeps the record, or its simulation, from carrying a verdict."""
+def record_gaps(record: TouchdownRecord) -> Iterator[Reason]:
+    """Return what keeps the record from carrying a verdict, whatever its simulation says."""
     if record.missing:
         yield Reason(
             code="record_incomplete",
             text="the record lacks " + "; ".join(record.missing),
             verdict=Verdict.UNDETERMINED,
         )
+    if record.unexplained:
+        yield Reason(
+            code="recorded_response_unexplained",
+            text="the stated uncertainties cannot explain what was recorded after the contact: "
+            + "; ".join(record.unexplained),
+            verdict=Verdict.UNDETERMINED,
+        )
+
+
+def _gaps(record: TouchdownRecord, histories: Sequence[LandingHistory]) -> Iterator[Reason]:
+    """Return what keeps the record, or its simulation, from carrying a verdict."""
+    yield from record_gaps(record)
     for number, history in enumerate(histories, 1):
         if history.outcome is Outcome.TIME_LIMIT and not history.contacts:
             yield Reason(

@@ -1,8 +1,12 @@
 """Recorder windows posted: understood, turned into records, assessed like them."""
 
+<<<<<<< HEAD
 import gzip
 import io
 import zipfile
+=======
+from dataclasses import replace
+>>>>>>> assimilation
 from pathlib import Path
 
 import httpx2
@@ -13,6 +17,8 @@ from solver.aircraft.airframe import load_airframe
 from solver.flight_data.fleet import SyntheticLanding, synthetic_landing
 from solver.flight_data.frame_file import packaged_frame
 from solver.flight_data.geometry import aircraft_geometry
+from solver.flight_data.parameter import Parameter
+from solver.flight_data.window import Channel, Window
 from solver.flight_data.writing import long_form
 from tests.conftest import Service
 
@@ -44,6 +50,19 @@ def post(service: Service, content: str | bytes, **query: str) -> httpx2.Respons
     )
 
 
+def exaggerated(window: Window) -> Window:
+    """Window whose normal acceleration shows three times what happened after the contact."""
+
+    def swung(channel: Channel) -> Channel:
+        if channel.parameter is not Parameter.NORMAL_ACCELERATION:
+            return channel
+        after = (channel.time > 0.0) & (channel.time < 1.0)
+        value = 1.0 + 3.0 * (channel.value - 1.0)
+        return replace(channel, value=np.where(after, value, channel.value))
+
+    return replace(window, channels=tuple(swung(channel) for channel in window.channels))
+
+
 class TestPost:
     def test_a_window_becomes_a_landing_with_its_contacts(
         self, service: Service, landing: SyntheticLanding
@@ -61,9 +80,40 @@ class TestPost:
         assert stored["tail"] == "T-7"
         assert stored["record"]["source"]["frame"] == FRAME
         given = stored["record"]["contacts"][0]
-        assert given["sink_rate"]["method"] == "smoother"
+        assert given["sink_rate"]["method"] == "smoother + response"
         # Pressed into the record with its own deviation, not with a default.
         assert stored["sd"]["contacts[0].sink_rate"] == pytest.approx(first["sink_rate_sd_m_s"])
+
+    def test_the_simulated_response_is_checked_against_the_recorded_one(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        answer = post(service, long_form(landing.window), frame=FRAME).json()
+        response = answer["contacts"][0]["response"]
+        assert response["is_explained"], response["summary"]
+        peak = response["peak"]
+        assert abs(peak["simulated_posterior_g"] - peak["recorded_g"]) < 0.1
+        sink = next(each for each in response["parameters"] if each["name"] == "sink_rate")
+        assert sink["unit"] == "m/s"
+        assert sink["posterior_sd"] < sink["prior_sd"]
+        assert sink["posterior"] == pytest.approx(answer["contacts"][0]["sink_rate_m_s"])
+        stored = service.get(answer["links"]["landing"]).json()["inputs"]
+        (uncertainty, *_) = stored["uncertainties"]
+        assert uncertainty["covariance"][0][0] == pytest.approx(sink["posterior_sd"] ** 2)
+
+    def test_a_response_that_cannot_be_explained_is_undetermined(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        text = long_form(exaggerated(landing.window))
+        answer = post(service, text, frame=FRAME).json()
+        first = answer["contacts"][0]
+        assert not first["response"]["is_explained"]
+        assert "cannot explain" in first["response_unused_because"]
+        service.work()
+        result = service.get(answer["links"]["assessment"]).json()["result"]
+        reasons = {reason["code"]: reason for reason in result["reasons"]}
+        assert "normal acceleration peaked at" in reasons["recorded_response_unexplained"]["text"]
+        assert reasons["recorded_response_unexplained"]["verdict"] == "UNDETERMINED"
+        assert result["verdict"] in ("UNDETERMINED", "HARD")
 
     def test_it_is_assessed_as_a_posted_record_is(
         self, service: Service, landing: SyntheticLanding

@@ -100,8 +100,14 @@ def verdict_of(
     loads: tuple[GearLoad, ...] = (),
     mass: float = 11_000.0,
     missing: tuple[str, ...] = (),
+    unexplained: tuple[str, ...] = (),
 ) -> tuple[Verdict, set[str]]:
-    record = TouchdownRecord(aircraft=definition.name, contacts=(contact,), missing=missing)
+    record = TouchdownRecord(
+        aircraft=definition.name,
+        contacts=(contact,),
+        missing=missing,
+        unexplained=unexplained,
+    )
     reasons = judge(definition, record, mass, [landing], loads, spot(utilisation))
     return severest(reasons), {reason.code for reason in reasons}
 
@@ -200,6 +206,13 @@ class TestWhatCannotBeTold:
         verdict, codes = verdict_of(definition, missing=("contacts[0].sink_rate",))
         assert verdict is Verdict.UNDETERMINED
         assert "record_incomplete" in codes
+
+    def test_a_recorded_response_that_does_not_fit_is_never_normal(
+        self, definition: AircraftDefinition
+    ) -> None:
+        verdict, codes = verdict_of(definition, unexplained=("contact 1: peaked at 2.2 g",))
+        assert verdict is Verdict.UNDETERMINED
+        assert "recorded_response_unexplained" in codes
 
     def test_what_is_known_to_be_hard_stays_hard(self, definition: AircraftDefinition) -> None:
         verdict, _ = verdict_of(definition, utilisation=1.2, missing=("contacts[1].pitch",))
