@@ -34,6 +34,8 @@ from solver.inertia_relief.response import landing_response
 from solver.landing.compilation import compile_kernels
 from solver.landing.history import LandingHistory
 from solver.landing.simulate import simulate_landing
+from solver.probability.exceedance import Nominal
+from solver.probability.limit_probability import limit_probability
 from solver.progress import Progress, silent
 from solver.verdict.action import combine
 from solver.verdict.gear_loads import gear_loads
@@ -124,6 +126,7 @@ def assess_landing(
     reduced = assemble(model.reduced, loading.factors)
     peaks = _PeakEnvelope(airframe)
     residual = 0.0
+    stress = []
     for number, history in enumerate(histories):
         progress("airframe stress", number / len(histories))
         response = landing_response(reduced, landing_loads(airframe, history))
@@ -131,6 +134,7 @@ def assess_landing(
         clock.lap("reduced_solution")
         found = find_peaks(model.reduced, response)
         peaks.add(number, found.stress, found.time)
+        stress.append(found.stress)
         clock.lap("peak_search")
 
     field = peaks.field()
@@ -140,7 +144,17 @@ def assess_landing(
         for load in gear_loads(definition.gears, history, number)
     )
     spots = rank_hot_spots(airframe, field) if histories else ()
-    reasons = judge(definition, record, mass, histories, loads, spots[0] if spots else None)
+    likelihood = None
+    if histories and record.uncertainties:
+        progress("probability", 0.0)
+        nominal = Nominal(record, loading, reduced, histories, np.stack(stress))
+        exceedance = limit_probability(airframe, model.reduced, nominal)
+        likelihood = exceedance.landing
+        spots = exceedance.of_spots(airframe, spots)
+        clock.lap("probability")
+    reasons = judge(
+        definition, record, mass, histories, loads, spots[0] if spots else None, likelihood
+    )
     verdict = severest(reasons)
     rule = judge_by_rule(model, record, histories)
     action, difference = combine(verdict, rule)
@@ -152,7 +166,7 @@ def assess_landing(
         rule_difference=difference,
         makers_rule=rule,
         reasons=reasons,
-        probability_limit_exceeded=None,
+        limit_probability=likelihood,
         driving_contact=_driving_contact(spots, loads),
         worst_utilisation=worst,
         worst_margin=math.inf if worst == 0.0 else 1.0 / worst - 1.0,
@@ -170,6 +184,7 @@ def assess_landing(
             simulation=clock.seconds["simulation"],
             reduced_solution=clock.seconds["reduced_solution"],
             peak_search=clock.seconds["peak_search"],
+            probability=clock.seconds["probability"],
             total=perf_counter() - start,
         ),
         peak_field=field if histories else None,
@@ -190,7 +205,8 @@ class _Clock:
     """Wall-clock seconds between laps, summed by name."""
 
     def __init__(self) -> None:
-        self.seconds = dict.fromkeys(("simulation", "reduced_solution", "peak_search"), 0.0)
+        steps = ("simulation", "reduced_solution", "peak_search", "probability")
+        self.seconds = dict.fromkeys(steps, 0.0)
         self._last = perf_counter()
 
     def lap(self, name: str) -> None:

@@ -41,6 +41,8 @@ class TouchdownRecord:
     fuel: dict[str, float] = field(default_factory=dict)  #: tank name to fuel mass [kg]
     payload: dict[str, float] = field(default_factory=dict)  #: bay name to mass [kg]
     missing: tuple[str, ...] = ()  #: names of what the record lacks for a verdict
+    mass_deviation: float | None = None  #: standard deviation of the gross mass [kg]
+    centre_of_gravity_deviation: float | None = None  #: standard deviation of the station [m]
     recorded: tuple[RecordedContact, ...] = ()  #: every contact, with unknown state or without
     uncertainties: tuple[ContactUncertainty, ...] = ()  #: of each of `contacts`, or empty: not said
 
@@ -52,6 +54,27 @@ class Reason:
     code: str
     text: str
     verdict: Verdict  #: the least severe verdict this reason alone would give
+
+
+class ProbabilityBasis(StrEnum):
+    """What a probability rests on."""
+
+    CORNERS = "corners"  #: pessimistic landings that stay below every limit
+    FIRST_SAMPLES = "first_samples"  #: few samples, all of them far below every limit
+    SAMPLES = "samples"
+
+
+@dataclass(frozen=True, slots=True)
+class LimitProbability:
+    """Probability that a landing exceeded a limit allowable or a gear's design limit load."""
+
+    probability: float
+    standard_error: float  #: of sampling alone
+    lower: float  #: of the 95 % interval of sampling; see `solver.probability`
+    upper: float  #: the same, or what the basis leaves
+    samples: int  #: landings simulated for it
+    failed: int  #: of those, not to be simulated and counted as exceeding
+    basis: ProbabilityBasis
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +96,9 @@ class HotSpot:
     contact: int  #: which of the record's contacts drove it, from 0
     ata_chapter: str
     inspection: str  #: what to look for, from the aircraft definition
+    #: that an element of this zone exceeded its limit allowable; None if it was not asked
+    probability_limit_exceeded: float | None = None
+    probability_standard_error: float | None = None  #: of sampling alone
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,6 +184,7 @@ class Timing:
     reduced_solution: float
     peak_search: float
     total: float
+    probability: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +196,8 @@ class Assessment:
     rule_difference: RuleDifference
     makers_rule: RuleVerdict | None  #: None if the aircraft's definition names no rule
     reasons: tuple[Reason, ...]
-    probability_limit_exceeded: float | None  #: filled once the record's uncertainty is propagated
+    #: None if the record does not say how well it is known
+    limit_probability: LimitProbability | None
     driving_contact: int | None  #: None if no contact could be simulated
     worst_utilisation: float
     worst_margin: float
@@ -185,3 +213,9 @@ class Assessment:
     peak_field: PeakField | None = None
     histories: tuple[LandingHistory, ...] = ()  #: one for each contact
     advisory: str = ADVISORY
+
+    @property
+    def probability_limit_exceeded(self) -> float | None:
+        """Probability that a limit allowable or a gear's design limit load was exceeded."""
+        known = self.limit_probability
+        return None if known is None else known.probability

@@ -27,7 +27,7 @@ def undetermined(model: AssessmentModel, record: TouchdownRecord, error: SolverE
         rule_difference=difference,
         makers_rule=rule,
         reasons=(Reason("inadmissible_record", str(error), Verdict.UNDETERMINED),),
-        probability_limit_exceeded=None,
+        limit_probability=None,
         driving_contact=None,
         worst_utilisation=nothing,
         worst_margin=nothing,

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from solver.aircraft.scatter import Scatter
 from solver.arrays import Array, BoolArray
 from solver.assessment import Verdict
 from solver.gear.parameters import Gear, Pin, SpringBack, Strut, Tyre
@@ -204,6 +205,8 @@ class VerdictThresholds:
     roll_limit: float  #: at a contact [rad]
     nose_first: Verdict  #: least verdict when the nose gear touches first
     nose_closure_limit: float  #: vertical speed of the nose wheel at its touchdown [m/s]
+    inspect_probability: float  #: that a limit allowable is exceeded, from here INSPECT
+    hard_probability: float  #: the same, from here HARD
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,6 +229,7 @@ class AircraftDefinition:
     air_loads: AirLoadLayout
     materials: tuple[MaterialAllowable, ...]
     zones: tuple[Zone, ...]
+    scatter: Scatter
     #: Maker's hard-landing rule: its name, or (``*.toml``) a file in the same folder.
     makers_rule: str | None = None
 

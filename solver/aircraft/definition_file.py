@@ -299,6 +299,9 @@ class VerdictSection(Section):
     #: vertical speed of the nose wheel at its touchdown, from here INSPECT.  By itself a nose comes
     #: down at up to 1.7 m/s; nose gears were damaged inside below their limit loads.
     nose_closure_limit_m_s: Annotated[float, Field(gt=0, le=6)] = 2.0
+    #: what a missed exceedance costs over what a needless inspection costs
+    missed_over_needless_cost: Annotated[float, Field(ge=1, le=1e4)] = 20.0
+    hard_probability: Annotated[float, Field(gt=0, lt=1)] = 0.5  #: from here HARD
     #: maker's hard-landing rule: one of the program's by name, or a file (*.toml) in this folder
     makers_rule: Annotated[str, Field(pattern=r"^[\w-][\w.-]{0,99}$")] | None = None
     source: Text = "not stated"
@@ -307,7 +310,31 @@ class VerdictSection(Section):
     def _in_order(self) -> "VerdictSection":
         if self.firm_utilisation >= self.inspect_utilisation:
             raise ValueError("firm_utilisation must be less than inspect_utilisation")
+        if self.hard_probability * (1.0 + self.missed_over_needless_cost) <= 1.0:
+            raise ValueError(
+                "hard_probability must be more than 1 / (1 + missed_over_needless_cost), from "
+                "which a landing is inspected"
+            )
         return self
+
+
+RelativeDeviation = Annotated[float, Field(ge=0, le=0.5)]
+
+
+class ScatterSection(Section):
+    """[scatter]: standard deviations of what nobody records, see `solver.aircraft.scatter`."""
+
+    gas_pressure_relative_sd: RelativeDeviation = 0.03
+    strut_damping_relative_sd: RelativeDeviation = 0.05
+    tyre_stiffness_relative_sd: RelativeDeviation = 0.05
+    tyre_friction_relative_sd: RelativeDeviation = 0.1
+    lift_decay_start_sd_s: Annotated[float, Field(ge=0, le=5)] = 0.15
+    lift_decay_time_relative_sd: RelativeDeviation = 0.2
+    residual_lift_fraction_sd: Annotated[float, Field(ge=0, le=0.5)] = 0.05
+    structural_damping_relative_sd: RelativeDeviation = 0.25
+    allowable_relative_sd: Annotated[float, Field(ge=0, le=0.3)] = 0.0
+    allowable_basis: Literal["limit", "A", "B"] = "limit"
+    source: Text = "not stated"
 
 
 class DefinitionFile(Section):
@@ -323,6 +350,7 @@ class DefinitionFile(Section):
     aerodynamics: AerodynamicsSection
     structure: StructureSection
     verdict: VerdictSection
+    scatter: ScatterSection = ScatterSection()
     gear_types: Annotated[dict[Name, GearTypeSection], Field(min_length=1)]
     gears: Annotated[list[GearSection], Field(min_length=1, max_length=12)]
     tanks: list[MassGroupSection] = []

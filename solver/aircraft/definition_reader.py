@@ -10,6 +10,7 @@ import numpy as np
 
 from solver.aircraft import definition as values
 from solver.aircraft import definition_file as file
+from solver.aircraft.scatter import AllowableBasis, Scatter
 from solver.aircraft.toml_document import read_document
 from solver.assessment import Verdict
 from solver.errors import ModelError
@@ -91,6 +92,9 @@ def _definition(checked: file.DefinitionFile) -> values.AircraftDefinition:
             roll_limit=math.radians(checked.verdict.roll_limit_deg),
             nose_closure_limit=checked.verdict.nose_closure_limit_m_s,
             nose_first=Verdict(checked.verdict.nose_first),
+            # Looking costs 1, not looking the ratio times the probability over its complement.
+            inspect_probability=1.0 / (1.0 + checked.verdict.missed_over_needless_cost),
+            hard_probability=checked.verdict.hard_probability,
         ),
         gears=tuple(_gear(gear, checked) for gear in checked.gears),
         tanks=tuple(map(_mass_group, checked.tanks)),
@@ -107,7 +111,23 @@ def _definition(checked: file.DefinitionFile) -> values.AircraftDefinition:
             for material in checked.materials
         ),
         zones=tuple(_zone(zone) for zone in checked.zones),
+        scatter=_scatter(checked.scatter),
         makers_rule=checked.verdict.makers_rule,
+    )
+
+
+def _scatter(section: file.ScatterSection) -> Scatter:
+    return Scatter(
+        gas_pressure=section.gas_pressure_relative_sd,
+        strut_damping=section.strut_damping_relative_sd,
+        tyre_stiffness=section.tyre_stiffness_relative_sd,
+        tyre_friction=section.tyre_friction_relative_sd,
+        lift_decay_start=section.lift_decay_start_sd_s,
+        lift_decay_time=section.lift_decay_time_relative_sd,
+        residual_lift_fraction=section.residual_lift_fraction_sd,
+        structural_damping=section.structural_damping_relative_sd,
+        allowable=section.allowable_relative_sd,
+        allowable_basis=AllowableBasis(section.allowable_basis),
     )
 
 

@@ -72,6 +72,15 @@ def _highest(values: Single) -> int:  # pragma: no cover - compiled
     return 0
 
 
+@numba.njit(**_STRICT)
+def _all_known(values: Single) -> bool:  # pragma: no cover - compiled
+    """Whether every value is a number."""
+    known = True
+    for i in range(len(values)):
+        known = known and values[i] == values[i]
+    return known
+
+
 @numba.njit(**_LEAN)
 def _rest(norms: Single, e: int, amplitudes: Single, t: int) -> float:  # pragma: no cover
     """How far the exact stress of element ``e`` may be from the compressed one at a sample."""
@@ -147,9 +156,11 @@ def _gather(
     norms: Single,
     certain: float,
     likeliest: int,
+    floor: float,
+    slack: float,
     samples: IntArray,
     estimates: Single,
-    slack: Single,
+    doubt: Single,
     candidates: IntArray,
     reach: Single,
     found: int,
@@ -164,35 +175,43 @@ def _gather(
     """
     # first all samples, then all estimates: loops without surprises keep the processor busy
     count, done = 0, -1
+    limit = max(floor, certain * np.float32(slack))
     for i in range(begin, end):
-        if bounds[i] <= certain:
+        if bounds[i] <= limit:
             continue
         start, stop = knots[i], knots[i + 1]
         # the ends are known by the leading patterns, and may have been looked at from before
-        if start == done or (at_knots[i] + others[e, i] + beside[e, i]) * _MARGIN <= certain:
+        if start == done or (at_knots[i] + others[e, i] + beside[e, i]) * _MARGIN <= limit:
             start += 1
         done = stop
-        if (at_knots[i + 1] + others[e, i + 1] + beside[e, i]) * _MARGIN <= certain:
+        if (at_knots[i + 1] + others[e, i + 1] + beside[e, i]) * _MARGIN <= limit:
             stop -= 1
             done = -1
         for t in range(start, stop + 1):
             samples[count + t - start] = t
-            slack[count + t - start] = beside[e, i]
+            doubt[count + t - start] = beside[e, i]
         count += max(0, stop + 1 - start)
     samples[count] = samples[max(0, count - 1)]
     for c in range(0, count, 2):
         pair = _stress(shares, e, patterns, samples[c], samples[c + 1], points)
         estimates[c], estimates[c + 1] = pair[0], pair[1]
+    best = -1
     for c in range(count):
-        certain = max(certain, estimates[c] - slack[c])
+        if estimates[c] - doubt[c] > certain:
+            certain, best = estimates[c] - doubt[c], c
+    limit = max(floor, certain * np.float32(slack))
+    if certain * np.float32(slack) <= floor:
+        best = -1
     for c in range(count):
-        if (estimates[c] + slack[c]) * _MARGIN >= certain:
+        # what others are held against is looked at itself
+        if c == best or (estimates[c] + doubt[c]) * _MARGIN > limit:
             t = samples[c]
             rest: Any = _rest(rest_norms, e, norms, t)
-            if (estimates[c] + rest) * _MARGIN >= certain:
+            if c == best or (estimates[c] + rest) * _MARGIN > limit:
                 candidates[found], reach[found] = t, (estimates[c] + rest) * _MARGIN
                 if estimates[c] - rest >= certain:
                     certain, likeliest = estimates[c] - rest, found
+                    limit = max(floor, certain * np.float32(slack))
                 found += 1
     return found, certain, likeliest, count
 
@@ -209,11 +228,15 @@ def gather_candidates(
     norms: Single,
     patterns: Single,
     knots: IntArray,
+    floors: Single,
+    slack: float,
     starts: IntArray,
     candidates: IntArray,
     reach: Single,
 ) -> int:  # pragma: no cover - compiled
     """Gather the samples that can hold an element's peak; return how many were estimated.
+
+    Of an element that stays below its floor there are none.
 
     Parameters
     ----------
@@ -234,6 +257,10 @@ def gather_candidates(
         See `SearchPlan`.
     patterns : (n + 1, r) array
         At every sample.
+    floors : (n,) array
+        Stress of each element that is not looked for.
+    slack : float
+        Stress that exceeds what is found by less than this factor is not looked for either.
     starts : (n + 1,) array
         Filled with the place of each element's first candidate, which is the likeliest.
     candidates, reach : (n * (samples + knots),) arrays
@@ -244,7 +271,7 @@ def gather_candidates(
     values = np.empty(intervals + 1, dtype=np.float32)
     samples = np.empty(len(patterns) + len(knots) + 1, dtype=np.int64)
     estimates = np.empty(len(samples), dtype=np.float32)
-    slack = np.empty(len(samples), dtype=np.float32)
+    doubt = np.empty(len(samples), dtype=np.float32)
     found = estimated = 0
     for e in range(len(shares)):
         _values(at_knots, e, points, values)
@@ -274,15 +301,20 @@ def gather_candidates(
                 norms,
                 certain,
                 likeliest,
+                floors[e],
+                slack,
                 samples,
                 estimates,
-                slack,
+                doubt,
                 candidates,
                 reach,
                 found,
             )
             estimated += looked
-        if found == first:  # the motion is not a number, and so is the peak
+        if found == first:
+            if floors[e] > _ZERO and _all_known(bounds):
+                continue
+            # at rest, or the motion is not a number, and so is the peak
             candidates[first], reach[first] = knots[top], _ZERO
             found += 1
         candidates[first], candidates[likeliest] = candidates[likeliest], candidates[first]
@@ -295,35 +327,46 @@ def gather_candidates(
 def evaluate_candidates(
     operator: Single,
     points: Single,
+    elements: IntArray,
     coordinates: Single,
     starts: IntArray,
     candidates: IntArray,
     reach: Single,
+    floors: Single,
+    slack: float,
     stress: Array,
     sample: IntArray,
 ) -> int:  # pragma: no cover - compiled
-    """Find the peak of every element among its candidates; return how many were evaluated.
+    """Find the peaks among the candidates; return how many were evaluated.
 
     Parameters
     ----------
     operator : (n, 6, m) array
         Exact stress rows [Pa].
-    points, starts, candidates, reach : arrays
+    points : (n, 8, 5) or (n, 0, 5) array
+        See `gather_candidates`.
+    elements : (k,) array
+        Those of the n that there are candidates of.
+    starts, candidates, reach : arrays
+        See `gather_candidates`.
+    floors, slack : (k,) array, float
         See `gather_candidates`.
     coordinates : (n + 1, m) array
         At every sample.
     stress, sample : (n,) arrays
-        Filled with peak and sample.
+        Filled with peak and sample where there are candidates.
     """
     evaluated = 0
-    for e in range(len(operator)):
+    for k in range(len(elements)):
+        if starts[k] == starts[k + 1]:
+            continue
         # the likeliest alone, then two at a time what can still be higher
-        where = candidates[starts[e]]
+        e, where = elements[k], candidates[starts[k]]
         best: Any = _stress(operator, e, coordinates, where, where, points)[0]
         evaluated += 1
         waiting = -1
-        for c in range(starts[e] + 1, starts[e + 1]):
-            if reach[c] <= best:
+        for c in range(starts[k] + 1, starts[k + 1]):
+            if reach[c] <= max(floors[k], best * np.float32(slack)):
                 continue
             if waiting < 0:
                 waiting = candidates[c]

@@ -10,49 +10,190 @@ patterns p, so that A z = S p + (what the patterns leave out, bounded by groups 
 3. Samples whose estimate, plus what the patterns leave out, can still be the peak are evaluated
    with the exact rows.
 
-The result is that of evaluating every sample, to the rounding of single precision.
+Elements that cannot exceed what the caller calls their floor are left out as early as a bound
+allows: all at once for the whole landing, interval by interval, or sample by sample.
+
+What is given is a stress of the exact rows at a sample, to the rounding of single precision; no
+other sample's is higher by more than the stated tolerance.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from solver.arrays import Array, IntArray, Single
+from solver.arrays import Array, BoolArray, IntArray, Single
+from solver.errors import ModelError
 from solver.inertia_relief.peak_kernels import evaluate_candidates, gather_candidates
 from solver.inertia_relief.peak_patterns import fill_patterns
-from solver.inertia_relief.peak_plan import plan_search
+from solver.inertia_relief.peak_plan import SearchPlan, plan_search
 from solver.inertia_relief.reduced import ReducedModel
-from solver.inertia_relief.reduced_stress import BLOCK, PATTERN_GROUP, group_edges
+from solver.inertia_relief.reduced_stress import BLOCK, PATTERN_GROUP, StressBlock, group_edges
 from solver.inertia_relief.response import ReducedResponse
+
+#: Share of its own peak that an element's stress may be below it.
+TOLERANCE = 5e-4
+#: Landings that go through a block of elements before the next one is read.
+LANDINGS_AT_ONCE = 16
+#: Covers the rounding of single precision in comparing a bound with a floor.
+_MARGIN = np.float32(1.0001)
+#: A block is cut down to the elements that can exceed their floors if these are fewer than this.
+_WORTH_CUTTING = 0.8
 
 
 @dataclass(frozen=True, slots=True)
 class StressPeaks:
-    """Peak of every element, in the solver's element order."""
+    """Peak of every element, in the solver's element order.
+
+    Of an element that does not exceed its floor nothing else is known: its stress is the floor.
+    """
 
     stress: Array  #: (ne,) von Mises [Pa]
-    sample: IntArray  #: (ne,) index of the sample
-    time: Array  #: (ne,) [s]
+    sample: IntArray  #: (ne,) index of the sample, -1 below the floor
+    time: Array  #: (ne,) not a number below the floor [s]
+    below_floor: BoolArray  #: (ne,) whether the stress is only known to be at most the given one
     evaluated: float  #: share of all elements' samples that were evaluated exactly
 
 
-def find_peaks(model: ReducedModel, response: ReducedResponse) -> StressPeaks:
-    """Find the peak of every element over all samples of a response."""
+def find_peaks(
+    model: ReducedModel,
+    response: ReducedResponse,
+    floor: ArrayLike = 0.0,
+    tolerance: float = TOLERANCE,
+) -> StressPeaks:
+    """Find the peak of every element over all samples of a response.
+
+    Parameters
+    ----------
+    floor : float or (ne,) array
+        Stress up to which nobody cares how high an element's peak is [Pa].
+    tolerance : float
+        A sample may be taken for the peak if no other's stress is higher by more than this share.
+
+    Raises
+    ------
+    ModelError
+        Floors of another shape than the elements', or negative ones, or a negative tolerance.
+    """
+    return find_peaks_together(model, [response], floor, tolerance)[0]
+
+
+def find_peaks_together(
+    model: ReducedModel,
+    responses: Sequence[ReducedResponse],
+    floor: ArrayLike = 0.0,
+    tolerance: float = TOLERANCE,
+) -> list[StressPeaks]:
+    """Find the peaks of several landings, each as `find_peaks` does.
+
+    Every block of elements is read once for `LANDINGS_AT_ONCE` of them.
+    """
     count = model.stress.element_count
-    plan = plan_search(response.coordinates.T / model.stress.scale)
-    knots, intervals = len(plan.knots), len(plan.knots) - 1
+    floors = np.asarray(floor, dtype=np.float64)
+    if floors.shape not in ((), (count,)):
+        raise ModelError(f"floor must be one stress or {count}, got shape {floors.shape}")
+    if not np.all(floors >= 0.0):
+        raise ModelError(f"floor must not be negative, got {floors.min():g} Pa")
+    if not tolerance >= 0.0:
+        raise ModelError(f"tolerance must not be negative, got {tolerance:g}")
+    floors = np.ascontiguousarray(np.broadcast_to(floors, count))
+    found: list[StressPeaks] = []
     # fresh pages for every block would cost as much as what is written on them
     room = _Room()
-    stress = np.zeros(count)
-    sample = np.zeros(count, dtype=np.int64)
-    starts = np.empty(BLOCK + 1, dtype=np.int64)
-    # a knot may be looked at from either side
-    candidates = np.empty(BLOCK * (len(plan.coordinates) + knots), dtype=np.int64)
-    reach = np.empty(len(candidates), dtype=np.float32)
-    evaluated = first = 0
-    for block in model.stress.blocks():
-        height, patterns = block.shares.shape
-        size, last = len(block.rows), first + len(block.rows)
+    for first in range(0, len(responses), LANDINGS_AT_ONCE):
+        searches = [
+            _Search(model, response, floors, tolerance, room)
+            for response in responses[first : first + LANDINGS_AT_ONCE]
+        ]
+        element = 0
+        for block in model.stress.blocks():
+            for search in searches:
+                search.look_at(block, element)
+            element += len(block.rows)
+        found += [search.peaks() for search in searches]
+    return found
+
+
+class _Search:
+    """The search in one landing, block after block."""
+
+    def __init__(
+        self,
+        model: ReducedModel,
+        response: ReducedResponse,
+        floors: Array,
+        tolerance: float,
+        room: "_Room",
+    ) -> None:
+        self._plan: SearchPlan = plan_search(response.coordinates.T / model.stress.scale)
+        self._time = response.time
+        self._floors, self._slack = floors, 1.0 + tolerance
+        self._single_floors = floors.astype(np.float32)
+        self._room = room
+        self._stress = np.zeros(len(floors))
+        self._sample = np.full(len(floors), -1, dtype=np.int64)
+        self._starts = np.empty(BLOCK + 1, dtype=np.int64)
+        # a knot may be looked at from either side
+        most = BLOCK * (len(self._plan.coordinates) + len(self._plan.knots))
+        self._candidates = room.samples("candidates", most)
+        self._reach = room("reach", 1, most)[0]
+        self._evaluated = 0
+
+    def look_at(self, block: StressBlock, first: int) -> None:
+        """Find the peaks of a block whose first element is ``first``."""
+        part = slice(first, first + len(block.rows))
+        floors = self._single_floors[part]
+        elements = np.arange(len(block.rows))
+        small = block
+        if floors.any():
+            elements = np.flatnonzero(~(self._ceilings(block) <= floors))
+            if len(elements) == 0:
+                return
+            if len(elements) < _WORTH_CUTTING * len(block.rows):
+                small, floors = block.compressed_part(elements), floors[elements]
+            else:
+                elements = np.arange(len(block.rows))
+        self._gather(small, floors)
+        self._evaluated += evaluate_candidates(
+            block.rows,
+            block.points,
+            elements,
+            self._plan.coordinates,
+            self._starts,
+            self._candidates,
+            self._reach,
+            floors,
+            self._slack,
+            self._stress[part],
+            self._sample[part],
+        )
+
+    def peaks(self) -> StressPeaks:
+        """Return what was found in all blocks."""
+        below = (self._stress <= self._floors) & (self._floors > 0.0)
+        sample = np.where(below, -1, np.minimum(self._sample, len(self._time) - 1))
+        return StressPeaks(
+            stress=np.where(below, self._floors, self._stress),
+            sample=sample,
+            time=np.where(below, np.nan, self._time[sample]),
+            below_floor=below,
+            evaluated=self._evaluated / max(1, len(self._stress) * len(self._time)),
+        )
+
+    def _ceilings(self, block: StressBlock) -> Single:
+        """Bounds (n,) of the stress of each element at any sample."""
+        groups = block.rest_norms.shape[1] // 2
+        # what the patterns leave out and what they hold, of coordinates as far as they ever move
+        norms = block.rest_norms[:, :groups] + block.rest_norms[:, groups:]
+        bounds: Single = (norms @ self._plan.largest[:groups]).max(axis=1) * _MARGIN
+        return bounds
+
+    def _gather(self, block: StressBlock, floors: Single) -> None:
+        """Gather samples that can be peaks of a block, see `gather_candidates`."""
+        plan, room = self._plan, self._room
+        knots, intervals = len(plan.knots), len(plan.knots) - 1
+        size, patterns = len(floors), block.shares.shape[1]
         edges = group_edges(patterns, PATTERN_GROUP)
         groups, leading = len(edges) - 1, int(np.searchsorted(edges, block.leading))
         at_grid = room("grid", len(plan.at_grid), patterns)
@@ -73,7 +214,7 @@ def find_peaks(model: ReducedModel, response: ReducedResponse) -> StressPeaks:
             rise,
             others,
         )
-        values = room("values", height, knots)
+        values = room("values", 6 * size, knots)
         np.matmul(block.shares[:, : block.leading], at_knots.T, out=values)
         norms = block.pattern_norms[:, :groups]
         gather_candidates(
@@ -87,28 +228,12 @@ def find_peaks(model: ReducedModel, response: ReducedResponse) -> StressPeaks:
             plan.norms,
             history,
             plan.knots,
-            starts,
-            candidates,
-            reach,
+            floors,
+            self._slack,
+            self._starts,
+            self._candidates,
+            self._reach,
         )
-        evaluated += evaluate_candidates(
-            block.rows,
-            block.points,
-            plan.coordinates,
-            starts,
-            candidates,
-            reach,
-            stress[first:last],
-            sample[first:last],
-        )
-        first = last
-    sample = np.minimum(sample, len(response.time) - 1)
-    return StressPeaks(
-        stress=stress,
-        sample=sample,
-        time=response.time[sample],
-        evaluated=evaluated / max(1, count * len(response.time)),
-    )
 
 
 class _Room:
@@ -116,6 +241,7 @@ class _Room:
 
     def __init__(self) -> None:
         self._pages: dict[str, Single] = {}
+        self._samples: dict[str, IntArray] = {}
 
     def __call__(self, name: str, height: int, width: int) -> Single:
         """Return an array (height, width) with anything in it."""
@@ -123,3 +249,10 @@ class _Room:
         if page is None or page.size < height * width:
             page = self._pages[name] = np.empty(2 * height * width, dtype=np.float32)
         return page[: height * width].reshape(height, width)
+
+    def samples(self, name: str, length: int) -> IntArray:
+        """Return an array (length,) of sample numbers with anything in it."""
+        page = self._samples.get(name)
+        if page is None or page.size < length:
+            page = self._samples[name] = np.empty(length, dtype=np.int64)
+        return page[:length]

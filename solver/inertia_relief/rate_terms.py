@@ -35,30 +35,40 @@ class RateTerms:
 
         Parameters
         ----------
-        rate, rate_derivative : (3,) arrays
-            [rad/s], [rad/s2]
-        displacement, velocity : (n,) arrays
+        rate, rate_derivative : (3,) or (k, 3) arrays
+            Of one frame, or of as many as there are motions [rad/s], [rad/s2].
+        displacement, velocity : (n,) or (n, k) arrays
             Elastic motion in the turning frame.
 
         Returns
         -------
-        (n,) array
+        (n,) or (n, k) array
             [N, N m]
         """
-        turn, turn_derivative = skew(rate), skew(rate_derivative)
-        fields = np.stack([displacement, velocity], axis=1)
-        points = self._interpolation @ fields
-        acceleration = (
-            points[:, 0].reshape(-1, 3) @ (turn_derivative + turn @ turn).T
-            + points[:, 1].reshape(-1, 3) @ (2.0 * turn).T
+        if displacement.ndim == 1:
+            return self.force(
+                rate[None], rate_derivative[None], displacement[:, None], velocity[:, None]
+            )[:, 0]
+        turn = np.stack([skew(each) for each in rate])
+        turn_derivative = np.stack([skew(each) for each in rate_derivative])
+        count = len(turn)
+        fields = np.hstack([displacement, velocity])
+        points = (self._interpolation @ fields).reshape(-1, 3, 2 * count).transpose(2, 1, 0)
+        acceleration = (turn_derivative + turn @ turn) @ points[:count]
+        acceleration += 2.0 * turn @ points[count:]
+        # (points, 3 k) through the masses, then each motion's three directions side by side
+        weighed = self._scalar_mass @ acceleration.reshape(3 * count, -1).T
+        force: Array = self._spread @ weighed.reshape(-1, count, 3).transpose(0, 2, 1).reshape(
+            -1, count
         )
-        force: Array = self._spread @ (self._scalar_mass @ acceleration).ravel()
         if len(self._rotary):
-            rotations = self._rotary_interpolation @ fields
+            rotations = (self._rotary_interpolation @ fields).reshape(-1, 3, 2 * count)
             inertia = self._rotary
-            on_rotation = inertia @ turn_derivative + turn @ inertia @ turn
-            on_spin = inertia @ turn + turn @ inertia
-            moments = np.einsum("kij,kj->ki", on_rotation, rotations[:, 0].reshape(-1, 3))
-            moments += np.einsum("kij,kj->ki", on_spin, rotations[:, 1].reshape(-1, 3))
-            force = force + self._rotary_spread @ moments.ravel()
+            for k in range(count):
+                w, w_dot = turn[k], turn_derivative[k]
+                on_rotation = inertia @ w_dot + w @ inertia @ w
+                on_spin = inertia @ w + w @ inertia
+                moments = np.einsum("kij,kj->ki", on_rotation, rotations[:, :, k])
+                moments += np.einsum("kij,kj->ki", on_spin, rotations[:, :, count + k])
+                force[:, k] += self._rotary_spread @ moments.ravel()
         return force

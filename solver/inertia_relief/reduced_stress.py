@@ -8,7 +8,7 @@ rows.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,6 +31,17 @@ class StressBlock:
     shares: Single  #: (6 n, r) of the patterns
     pattern_norms: Single  #: (n, groups of the most patterns) see `ReducedStress`
     rest_norms: Single  #: (n, 2 * groups) see `ReducedStress`
+
+    def compressed_part(self, elements: IntArray) -> "StressBlock":
+        """Return the block with the compressed rows of some elements; the exact rows stay."""
+        rank = self.shares.shape[1]
+        return replace(
+            self,
+            points=self.points[elements],
+            shares=self.shares.reshape(-1, 6, rank)[elements].reshape(-1, rank),
+            pattern_norms=self.pattern_norms[elements],
+            rest_norms=self.rest_norms[elements],
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,7 +68,7 @@ def next_step(step: float, part: float, error: float, interval: float) -> float:
     return min(max(step, growth * part), interval)
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def integrate(
     start: float,
     interval: float,

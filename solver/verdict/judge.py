@@ -9,7 +9,15 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from solver.aircraft.definition import AircraftDefinition
-from solver.assessment import GearLoad, HotSpot, Reason, TouchdownRecord, Verdict
+from solver.assessment import (
+    GearLoad,
+    HotSpot,
+    LimitProbability,
+    ProbabilityBasis,
+    Reason,
+    TouchdownRecord,
+    Verdict,
+)
 from solver.landing.history import LandingHistory, Outcome
 
 #: Rising order; HARD outranks UNDETERMINED because what is known already grounds the aircraft.
@@ -47,6 +55,7 @@ def judge(
     histories: Sequence[LandingHistory],
     loads: Sequence[GearLoad],
     worst: HotSpot | None,
+    likelihood: LimitProbability | None = None,
 ) -> tuple[Reason, ...]:
     """Return all reasons, most severe first; one of them always states the worst utilisation.
 
@@ -64,10 +73,13 @@ def judge(
         Of every gear in every contact.
     worst : HotSpot
         The most used element of the airframe; None if no contact could be simulated.
+    likelihood : LimitProbability, optional
+        That a limit was exceeded; None if the record does not say how well it is known.
     """
     found = [
         *_airframe(definition, mass, worst),
         *_gears(definition, mass, loads),
+        *_probability(definition, likelihood),
         *_conditions(definition, record, mass, histories),
         *_gaps(record, histories),
     ]
@@ -137,6 +149,37 @@ def _gears(
                 ),
                 verdict=Verdict.INSPECT,
             )
+
+
+def _probability(
+    definition: AircraftDefinition, likelihood: LimitProbability | None
+) -> Iterator[Reason]:
+    """Look where not looking would cost more than looking; see `VerdictThresholds`."""
+    if likelihood is None:
+        return
+    thresholds, probability = definition.verdict, likelihood.probability
+    if probability >= thresholds.hard_probability:
+        verdict, code = Verdict.HARD, "limit_probably_exceeded"
+        beyond = f"at or above the {thresholds.hard_probability:.0%} from which a landing is hard"
+    elif probability >= thresholds.inspect_probability:
+        verdict, code = Verdict.INSPECT, "limit_possibly_exceeded"
+        beyond = f"at or above the {thresholds.inspect_probability:.1%} from which to inspect"
+    else:
+        verdict, code = Verdict.NORMAL, "limit_probability"
+        beyond = f"below the {thresholds.inspect_probability:.1%} from which to inspect"
+    if likelihood.basis is ProbabilityBasis.SAMPLES:
+        known = (
+            f"{probability:.1%} (95 % interval of sampling {likelihood.lower:.1%} to "
+            f"{likelihood.upper:.1%}, {likelihood.samples} simulated landings)"
+        )
+    else:
+        known = f"0 (at most {likelihood.upper:.1%}, {likelihood.samples} simulated landings)"
+    yield Reason(
+        code=code,
+        text=f"probability that a limit was exceeded, as well as the record is known: {known}, "
+        + beyond,
+        verdict=verdict,
+    )
 
 
 def _conditions(

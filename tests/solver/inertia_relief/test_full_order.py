@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from solver.errors import ModelError
+from solver.inertia_relief.accumulate import PeakAccumulator
 from solver.inertia_relief.damping import RayleighDamping
-from solver.inertia_relief.full_order import BodyLoads
+from solver.inertia_relief.full_order import BodyLoads, integrate_together
 from solver.inertia_relief.motion import RigidMotion
 from solver.inertia_relief.static import inertia_relief
 from verification.inertia_relief.beam_dynamics import (
@@ -125,3 +127,31 @@ def test_peaks_keep_the_earliest_largest_value_of_any_block():
     peaks = full_order_peaks(winged, factors, loads, RayleighDamping())
     np.testing.assert_array_equal(peaks.sample, stress.argmax(axis=1))
     np.testing.assert_allclose(peaks.stress, stress.max(axis=1), rtol=1e-13)
+
+
+def test_landings_side_by_side_are_each_by_itself():
+    winged, factors = winged_body(6, 8), np.array([0.85, 0.3])
+    landings = [balanced_landing(winged, factors, seed, duration=0.03) for seed in (3, 8)]
+    peaks = [PeakAccumulator(winged.recovery) for _ in landings]
+    damping = RayleighDamping(0.02, 3.0, 40.0)
+    loads = [
+        BodyLoads(each.time, winged.applied, each.applied_amplitudes(), each.motion)
+        for each in landings
+    ]
+    integrate_together(winged.body(factors), loads, damping, peaks, substeps=2)
+    for landing, found in zip(landings, peaks, strict=True):
+        alone = full_order_peaks(winged, factors, landing, damping, substeps=2)
+        np.testing.assert_allclose(found.stress, alone.stress, rtol=1e-6)
+
+
+def test_landings_side_by_side_must_share_their_time():
+    winged, factors = winged_body(6, 8), np.array([0.85, 0.3])
+    short, long = (balanced_landing(winged, factors, 3, duration) for duration in (0.02, 0.03))
+    loads = [
+        BodyLoads(each.time, winged.applied, each.applied_amplitudes(), each.motion)
+        for each in (short, long)
+    ]
+    with pytest.raises(ModelError, match="landing 1 has another time grid"):
+        integrate_together(
+            winged.body(factors), loads, RayleighDamping(), [lambda *_: None, lambda *_: None]
+        )

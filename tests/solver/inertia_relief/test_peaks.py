@@ -6,9 +6,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solver.arrays import Array
+from solver.errors import ModelError
 from solver.inertia_relief.compression import compressed
 from solver.inertia_relief.damping import RayleighDamping
-from solver.inertia_relief.peaks import find_peaks
+from solver.inertia_relief.peaks import (
+    LANDINGS_AT_ONCE,
+    TOLERANCE,
+    find_peaks,
+    find_peaks_together,
+)
 from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import ReducedResponse
 from solver.inertia_relief.stress_rows import StressRows
@@ -66,21 +72,92 @@ def vibration(size: int, count: int, seed: int, highest: float) -> Array:
     )
 
 
+HIGHEST = st.sampled_from([0.002, 0.02, 0.1, 0.5])
+
+
 @settings(max_examples=40, deadline=None)
 @given(
-    size=st.integers(1, 60),
-    count=st.integers(2, 400),
-    highest=st.sampled_from([0.002, 0.02, 0.1, 0.5]),
-    seed=st.integers(0, 10_000),
+    size=st.integers(1, 60), count=st.integers(2, 400), highest=HIGHEST, seed=st.integers(0, 10_000)
 )
 def test_every_peak_equals_that_of_evaluating_every_sample(size, count, highest, seed):
     model = stress_model(7, 5, size, seed)
     coordinates = vibration(size, count, seed, highest)
-    peaks = find_peaks(model, response_of(coordinates))
+    peaks = find_peaks(model, response_of(coordinates), tolerance=0.0)
     expected = every_sample(model, coordinates)
     np.testing.assert_allclose(peaks.stress, expected.max(axis=1), rtol=2e-5)
     at_sample = np.take_along_axis(expected, peaks.sample[:, None], axis=1)[:, 0]
     np.testing.assert_allclose(at_sample, expected.max(axis=1), rtol=2e-5)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    size=st.integers(1, 60),
+    count=st.integers(2, 400),
+    highest=HIGHEST,
+    seed=st.integers(0, 10_000),
+    tolerance=st.sampled_from([1e-4, TOLERANCE, 1e-2, 0.2]),
+    share=st.floats(0.0, 1.5),
+)
+def test_peaks_above_their_floors_are_within_the_tolerance(
+    size, count, highest, seed, tolerance, share
+):
+    """Floors are drawn around each element's peak, some of them nil."""
+    model = stress_model(7, 5, size, seed)
+    coordinates = vibration(size, count, seed, highest)
+    stress = every_sample(model, coordinates)
+    expected = stress.max(axis=1)
+    floor = share * expected * np.random.default_rng(seed).choice([0.0, 0.5, 1.0], 12)
+    peaks = find_peaks(model, response_of(coordinates), floor, tolerance)
+    below = peaks.below_floor
+    assert np.all(peaks.stress >= floor)
+    assert np.all(peaks.stress[below] == floor[below])
+    # never above the highest sample, never more than the tolerance below it
+    assert np.all(peaks.stress[~below] <= expected[~below] * (1 + 2e-5))
+    assert np.all(expected <= peaks.stress * (1 + tolerance) * (1 + 2e-5))
+    at_sample = np.take_along_axis(stress, peaks.sample[:, None], axis=1)[:, 0]
+    np.testing.assert_allclose(at_sample[~below], peaks.stress[~below], rtol=2e-5)
+    assert np.all(peaks.sample[below] == -1)
+    assert np.all(np.isnan(peaks.time) == below)
+
+
+def test_floors_above_every_peak_leave_nothing_to_evaluate():
+    model = stress_model(40, 40, 12, 3)
+    coordinates = vibration(12, 300, 3, 0.01)
+    floor = 1.01 * every_sample(model, coordinates).max(axis=1)
+    peaks = find_peaks(model, response_of(coordinates), floor)
+    assert np.all(peaks.below_floor)
+    assert np.array_equal(peaks.stress, floor)
+    assert find_peaks(model, response_of(coordinates), 10 * floor.max()).evaluated == 0.0
+
+
+def test_landings_together_are_each_by_itself():
+    """Of other lengths, and more of them than go through a block at once."""
+    model = stress_model(300, 20, 12, 3)
+    responses = [
+        response_of(vibration(12, 40 + 3 * seed, seed, 0.05))
+        for seed in range(LANDINGS_AT_ONCE + 3)
+    ]
+    floor = np.where(np.arange(320) % 3 == 0, 8.0, 0.0)
+    together = find_peaks_together(model, responses, floor)
+    for response, found in zip(responses, together, strict=True):
+        alone = find_peaks(model, response, floor)
+        assert np.array_equal(found.stress, alone.stress)
+        assert np.array_equal(found.sample, alone.sample)
+
+
+@pytest.mark.parametrize(
+    ("floor", "tolerance", "words"),
+    [
+        (-1.0, 0.0, "floor must not be negative, got -1 Pa"),
+        (np.ones(3), 0.0, "floor must be one stress or 4"),
+        (0.0, -1e-3, "tolerance must not be negative"),
+        (np.nan, 0.0, "floor must not be negative"),
+    ],
+)
+def test_floors_and_tolerances_are_checked(floor, tolerance, words):
+    model = stress_model(2, 2, 3, 0)
+    with pytest.raises(ModelError, match=words):
+        find_peaks(model, response_of(np.ones((3, 20))), floor, tolerance)
 
 
 @pytest.mark.parametrize("sample", [0, 1, 15, 16, 17, 31, 98, 99])
