@@ -192,4 +192,4 @@ def _scored(method: Method, hard: BoolArray, weights: Array, seed: int) -> Metho
 
 def _calibration(probability: Array, hard: BoolArray, weights: Array) -> Calibration:
     bins = calibration(probability, hard, weights, BINS)
-    return Calibration(bins, calibration_error(bins, probability, weights, BINS))
+    return Calibration(bins, calibration_error(bins))

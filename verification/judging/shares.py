@@ -108,6 +108,7 @@ def area_interval(
 class CalibrationBin:
     """Landings whose stated probabilities are alike."""
 
+    share: float  #: of all landings
     stated: float  #: mean
     observed: Share  #: of hard ones among them
 
@@ -121,14 +122,16 @@ def calibration(
     for index in range(len(edges) - 1):
         inside = place == index
         if inside.any():
-            stated = float(np.average(probability[inside], weights=weights[inside]))
             bins.append(
-                CalibrationBin(stated, weighted_share(is_hard[inside], weights[inside]))
+                CalibrationBin(
+                    share=float(weights[inside].sum() / weights.sum()),
+                    stated=float(np.average(probability[inside], weights=weights[inside])),
+                    observed=weighted_share(is_hard[inside], weights[inside]),
+                )
             )
     return tuple(bins)
 
 
-def calibration_error(bins: tuple[CalibrationBin, ...], weights: tuple[float, ...]) -> float:
-    """Mean distance of stated and observed, bins weighted (expected calibration error)."""
-    distances = [abs(each.stated - each.observed.value) for each in bins]
-    return float(np.average(distances, weights=weights))
+def calibration_error(bins: tuple[CalibrationBin, ...]) -> float:
+    """Mean distance of stated and observed over all landings (expected calibration error)."""
+    return sum(each.share * abs(each.stated - each.observed.value) for each in bins)
