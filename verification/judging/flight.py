@@ -61,9 +61,7 @@ def fly(
     }
     fills = airframe.fill_factors(fuel, payload)
     scatter = definition.scatter
-    contact = replace(
-        drawn.contact, lift=scattered_lift(drawn.contact.lift, scatter, rng)
-    )
+    contact = replace(drawn.contact, lift=scattered_lift(drawn.contact.lift, scatter, rng))
     aircraft = scattered_aircraft(airframe.landing_aircraft(fills), contact, scatter, rng)
     return FlownLanding(
         drawn=drawn,

@@ -203,9 +203,7 @@ def rule_answers(model: AssessmentModel, window: Window) -> RuleAnswers:
         roll=float(np.interp(0.0, roll.time, roll.value)),
         nose_first=False,
     )
-    record = TouchdownRecord(
-        model.name, (), mass=recorded_mass(model, window), recorded=(contact,)
-    )
+    record = TouchdownRecord(model.name, (), mass=recorded_mass(model, window), recorded=(contact,))
     verdict = apply_rule(model.makers_rule, model.airframe.definition, record)
     finding = next(f for f in verdict.findings if f.criterion == "normal load factor")
     limit = finding.limit or 0.0

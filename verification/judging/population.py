@@ -60,7 +60,7 @@ class Kind:
     service: SinkRates
     enriched: SinkRates  #: half of the landings flown come from here, half from `service`
     pitch: tuple[float, float] = (5.0, 1.2)  #: mean and standard deviation [deg]
-    lift: tuple[float, float] = (1.0, 0.05)  #: over the weight at the contact
+    lift: tuple[float, float] = (0.97, 0.03)  #: over the weight at the contact, cut off at 1
     spoilers: float = 0.5  #: when lift begins to decay [s]
 
     def draw_sink_rate(self, rng: np.random.Generator) -> tuple[float, float]:
@@ -86,7 +86,7 @@ KINDS = (
     Kind("nose first", 0.003, 0.15, SinkRates(0.4, 1.0, 0.7), _NEAR_LIMIT, pitch=(-1.5, 0.7)),
     Kind(
         "bounced", 0.005, 0.15, SinkRates(0.9, 0.8, 0.6), _NEAR_LIMIT,
-        lift=(1.06, 0.04), spoilers=1.2,
+        lift=(1.0, 0.01), spoilers=1.0,
     ),
 )  # fmt: skip
 
@@ -125,7 +125,8 @@ def draw_landing(number: int, seed: int) -> DrawnLanding:
         pitch_rate=float(normal(0.0, 1.0) * _DEGREE),
         roll_rate=float(normal(0.0, 1.5) * _DEGREE),
         yaw_rate=float(normal(0.0, 0.8) * _DEGREE),
-        lift=Lift(fraction=float(normal(*kind.lift)), decay_start=kind.spoilers),
+        # With more lift than weight the simulated aircraft, which has no pilot, balloons and falls.
+        lift=Lift(fraction=min(float(normal(*kind.lift)), 1.0), decay_start=kind.spoilers),
     )
     return DrawnLanding(
         number=number,

@@ -156,9 +156,7 @@ def score_fleet(answers: Sequence[Answers], seed: int) -> FleetScore:
         No landing was hard, or none sound: the fleet is too small.
     """
     hard, weights = truth_of(answers)
-    scored = tuple(
-        _scored(method, hard, weights, seed) for method in methods_of(answers, seed)
-    )
+    scored = tuple(_scored(method, hard, weights, seed) for method in methods_of(answers, seed))
     stated = [i for i, each in enumerate(answers) if each.probability is not None]
     flown = service = None
     if stated:
