@@ -115,7 +115,5 @@ def _reliability_panel(calibration: Calibration, title: str) -> Panel:
             *bars,
         ],
         title=title,
-        x_limits=(-0.03, 1.03),
-        y_limits=(-0.03, 1.03),
         is_square=True,
     )

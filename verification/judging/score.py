@@ -115,14 +115,16 @@ def methods_of(answers: Sequence[Answers], seed: int) -> tuple[Method, ...]:
 
 def corrected_of(answers: Answers) -> float | None:
     """Use of a limit after assimilation; where that was left out, by the estimate."""
+    if answers.undetermined:
+        return None
     return answers.corrected if answers.is_complete else answers.estimate
 
 
 def probability_of(answers: Answers) -> float | None:
     """Stated probability; where it was left out the landing is clearly sound, or clearly hard."""
-    if answers.is_complete or answers.estimate is None:
-        return answers.probability
-    return float(answers.estimate > 1.0)
+    if answers.undetermined or answers.estimate is None:
+        return None
+    return answers.probability if answers.is_complete else float(answers.estimate > 1.0)
 
 
 def truth_of(answers: Sequence[Answers]) -> tuple[BoolArray, Array]:
