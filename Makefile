@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types contracts check bench bench-scaling bench-service verify docs lock openapi clean
+.PHONY: help run test lint types contracts check bench bench-scaling bench-service verify judge docs lock openapi clean
 SHELL := /bin/sh
 B := .venv/bin
 # One BLAS thread in every process: the work is spread over processes, not inside a product.
@@ -39,6 +39,10 @@ bench-service:  ## how the service keeps up, with a real Postgres and Redis (OPT
 verify:  ## compare with independent means, report in var/verify (QUICK=1, ONLY=chapter, DOCS=1)
 	@$(if $(QUICK),bin/setup dev,bin/setup peers || bin/setup dev) && $(B)/python -m verification \
 	  $(if $(QUICK),--quick) $(if $(ONLY),--only $(ONLY)) $(if $(DOCS),--docs)
+
+judge:  ## fly published accidents and a synthetic fleet, judge every method (QUICK=1, LANDINGS=n, DOCS=1)
+	@bin/setup dev && $(B)/python -m verification.judging \
+	  $(if $(QUICK),--quick) $(if $(LANDINGS),--landings $(LANDINGS)) $(if $(DOCS),--docs)
 
 docs:  ## draw the figures of README and docs again
 	@bin/setup dev && $(B)/python docs/figures/draw.py

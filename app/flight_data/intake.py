@@ -22,7 +22,7 @@ from solver.flight_data.frame_file import frame_names, packaged_frame
 from solver.flight_data.geometry import Geometry, Place, geometry_on_gears
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reading import read_window
-from solver.flight_data.reconstruction import Reconstruction, reconstruct
+from solver.flight_data.reconstruction import FoundContact, Reconstruction, reconstruct
 from solver.flight_data.table import Limits
 from solver.flight_data.window import Note, Window
 from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
@@ -39,10 +39,6 @@ _MOST_CONTACTS = 12
 
 _FIRST_GEAR = {Place.LEFT: "ML", Place.RIGHT: "MR", Place.NOSE: "N"}
 
-<<<<<<< HEAD
-#: The landing simulation brings the other wheels down by itself.
-_FOLLOWING = (ContactKind.DEROTATION, ContactKind.MAINS, ContactKind.ONE_GEAR)
-=======
 _UNITS = {
     "sink_rate": "m/s",
     "pitch": "rad",
@@ -53,7 +49,6 @@ _UNITS = {
     "roll_rate": "rad/s",
     "yaw_rate": "rad/s",
 }
->>>>>>> assimilation
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +88,7 @@ def take_in_window(
         found=found,
         responses=responses,
         notes=(*window.notes, *notes),
-        record=_record(query, window, responses, geometry, content_digest),
+        record=_record(query, window, found, responses, geometry, content_digest),
         digest=hashlib.sha256(identity.encode()).hexdigest(),
     )
 
@@ -139,6 +134,7 @@ def definition_geometry(definition: AircraftDefinition, window: Window) -> Geome
 def _record(
     query: WindowQuery,
     window: Window,
+    found: Reconstruction,
     responses: Assimilation,
     geometry: Geometry,
     content_digest: str,
@@ -158,19 +154,15 @@ def _record(
     if mass is not None:
         record["mass"] = {"gross_weight": {"value": mass, "unit": "kg", "sd": 0.01 * mass}}
     places = {wheel.gear: wheel.place for wheel in geometry.wheels}
+    landed = [update.found for update in responses.updates]
     # A window that cannot tell is a landing all the same: one contact of which nothing is known.
     record["contacts"] = [
-<<<<<<< HEAD
-        _contact(contact, landed[0], _peaks_until(contact, landed, found.contacts), window, places)
-        for contact in landed
-=======
-        _contact(update, window, places) for update in responses.updates[:_MOST_CONTACTS]
->>>>>>> assimilation
+        _contact(update, _peaks_until(update.found, landed, found.contacts), window, places)
+        for update in responses.updates[:_MOST_CONTACTS]
     ] or [{}]
     return record
 
 
-<<<<<<< HEAD
 def _peaks_until(
     contact: FoundContact, landed: list[FoundContact], every: tuple[FoundContact, ...]
 ) -> float:
@@ -182,21 +174,12 @@ def _peaks_until(
 
 
 def _contact(
-    contact: FoundContact,
-    first: FoundContact,
-    peaks_until: float,
-    window: Window,
-    places: dict[str, Place],
+    update: ContactUpdate, peaks_until: float, window: Window, places: dict[str, Place]
 ) -> dict[str, Any]:
-    state = contact.state
-    sink = state.sink_rate
-=======
-def _contact(update: ContactUpdate, window: Window, places: dict[str, Place]) -> dict[str, Any]:
     found, contact = update.found, update.contact
     sds = np.sqrt(np.diag(update.uncertainty.matrix))
     sd = dict(zip(CONTACT_COMPONENTS, sds.tolist(), strict=True))
     silent = () if update.is_corrected else found.state.assumed
->>>>>>> assimilation
     given: dict[str, Any] = {
         "time": _number(contact.time, found.time_sd, "s"),
         "t_sd_s": found.time_sd,
@@ -226,11 +209,7 @@ def _contact(update: ContactUpdate, window: Window, places: dict[str, Place]) ->
         channel = window.first(parameter)
         if channel is None:
             continue
-<<<<<<< HEAD
-        inside = (channel.time > contact.time) & (channel.time < peaks_until)
-=======
-        inside = (channel.time > found.time) & (channel.time < found.time + _PEAK_SPAN)
->>>>>>> assimilation
+        inside = (channel.time > found.time) & (channel.time < peaks_until)
         if np.any(inside):
             values = channel.value[inside]
             peak = float(values[np.argmax(size(values))])

@@ -26,7 +26,7 @@ SPAN = 0.8
 _SHORTEST = 0.25
 
 #: The simulation of the contact before brings these wheels down by itself.
-FOLLOWING = (ContactKind.DEROTATION, ContactKind.MAINS)
+FOLLOWING = (ContactKind.DEROTATION, ContactKind.MAINS, ContactKind.ONE_GEAR)
 
 
 @dataclass(frozen=True, slots=True)

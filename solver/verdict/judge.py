@@ -6,7 +6,7 @@ finding never lowers a verdict, and what cannot be told is UNDETERMINED, never N
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from solver.aircraft.definition import AircraftDefinition
 from solver.assessment import (
@@ -207,6 +207,8 @@ def _conditions(
                 ),
                 verdict=thresholds.nose_first,
             )
+        else:
+            yield from _struck_nose(thresholds.nose_closure_limit, positions, number, history)
         if abs(contact.roll) >= thresholds.roll_limit:
             yield Reason(
                 code="roll_at_contact",
@@ -225,6 +227,22 @@ def _conditions(
                 "lower thresholds apply"
             ),
             verdict=Verdict.NORMAL,
+        )
+
+
+def _struck_nose(
+    limit: float, positions: Mapping[str, str], number: int, history: LandingHistory
+) -> Iterator[Reason]:
+    """Find a nose brought down fast: struts were damaged inside by loads below their limit."""
+    closures = [c.closure_speed for c in history.contacts if positions[c.gear] == "nose"]
+    if max(closures, default=0.0) >= limit:
+        yield Reason(
+            code="nose_struck",
+            text=(
+                f"contact {number}: the nose wheel came down at {max(closures):.2f} m/s, limit "
+                f"{limit:.2f}; inspect the nose gear, its attachment and the forward fuselage"
+            ),
+            verdict=Verdict.INSPECT,
         )
 
 

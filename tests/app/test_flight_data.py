@@ -1,12 +1,9 @@
 """Recorder windows posted: understood, turned into records, assessed like them."""
 
-<<<<<<< HEAD
 import gzip
 import io
 import zipfile
-=======
 from dataclasses import replace
->>>>>>> assimilation
 from pathlib import Path
 
 import httpx2
