@@ -1,5 +1,5 @@
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types contracts check bench bench-service verify docs lock openapi clean
+.PHONY: help run test lint types contracts check bench bench-scaling bench-service verify judge docs lock openapi clean
 SHELL := /bin/sh
 B := .venv/bin
 # One BLAS thread in every process: the work is spread over processes, not inside a product.
@@ -30,12 +30,19 @@ check: test lint types contracts  ## everything that CI runs
 bench:  ## timings of one landing, side by side in one run
 	@bin/setup dev && $(B)/python -m benchmarks.landing
 
+bench-scaling:  ## how a landing's cost grows up to 100,000 elements (SIZES="1 2 4")
+	@bin/setup dev && $(B)/python -m benchmarks.scaling $(if $(SIZES),--sizes $(SIZES))
+
 bench-service:  ## how the service keeps up, with a real Postgres and Redis (OPTIONS="--landings 200")
 	@bin/setup dev && $(B)/python -m benchmarks.service $(OPTIONS)
 
 verify:  ## compare with independent means, report in var/verify (QUICK=1, ONLY=chapter, DOCS=1)
 	@$(if $(QUICK),bin/setup dev,bin/setup peers || bin/setup dev) && $(B)/python -m verification \
 	  $(if $(QUICK),--quick) $(if $(ONLY),--only $(ONLY)) $(if $(DOCS),--docs)
+
+judge:  ## fly published accidents and a synthetic fleet, judge every method (QUICK=1, LANDINGS=n, DOCS=1)
+	@bin/setup dev && $(B)/python -m verification.judging \
+	  $(if $(QUICK),--quick) $(if $(LANDINGS),--landings $(LANDINGS)) $(if $(DOCS),--docs)
 
 docs:  ## draw the figures of README and docs again
 	@bin/setup dev && $(B)/python docs/figures/draw.py

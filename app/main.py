@@ -28,6 +28,7 @@ from app.landings.endpoints import BULK_PATH
 from app.landings.endpoints import router as landings
 from app.observe import Metrics, RequestObserver, configure_logging
 from app.sweeper import Sweeper
+from solver.flight_data.rts import compile_smoother
 
 log = structlog.get_logger(__name__)
 
@@ -55,6 +56,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
+        compile_smoother()
         try:
             remember_models(engine, registry)
         except SQLAlchemyError as error:

@@ -45,6 +45,7 @@ class TouchdownRecord:
     centre_of_gravity_deviation: float | None = None  #: standard deviation of the station [m]
     recorded: tuple[RecordedContact, ...] = ()  #: every contact, with unknown state or without
     uncertainties: tuple[ContactUncertainty, ...] = ()  #: of each of `contacts`, or empty: not said
+    unexplained: tuple[str, ...] = ()  #: recorded responses that no landing as believed can give
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from math import radians
 
 import numpy as np
 
-from solver.aircraft.airframe import Airframe
+from solver.aircraft.assessed_airframe import AssessedAirframe
 from solver.arrays import Array
 from solver.inertia_relief.loads import LandingLoads, landing_loads
 from solver.landing.contact import Contact
@@ -22,12 +22,12 @@ class Case:
     fuel: tuple[float, ...]  #: fill of each tank
     payload: tuple[float, ...]  #: fill of each bay
 
-    def factors(self, airframe: Airframe) -> Array:
+    def factors(self, airframe: AssessedAirframe) -> Array:
         """Fill factors of tanks and bays, cycled over what the aircraft has."""
         tanks, bays = len(airframe.definition.tanks), len(airframe.definition.bays)
         return np.concatenate([np.resize(self.fuel, tanks), np.resize(self.payload, bays)])
 
-    def loads(self, airframe: Airframe, duration: float) -> LandingLoads:
+    def loads(self, airframe: AssessedAirframe, duration: float) -> LandingLoads:
         """Simulate the landing and give the structure's loads up to ``duration`` [s]."""
         history = simulate_landing(
             airframe.landing_aircraft(self.factors(airframe)),

@@ -8,6 +8,7 @@ from solver.assess import AssessmentModel, assess_landing, judge_by_rule
 from solver.assessment import Assessment, Reason, Timing, TouchdownRecord, Verdict
 from solver.errors import SolverError
 from solver.verdict.action import combine
+from solver.verdict.judge import record_gaps
 
 
 def solve(
@@ -40,7 +41,10 @@ def undetermined(model: AssessmentModel, record: TouchdownRecord, error: SolverE
         action=action,
         rule_difference=difference,
         makers_rule=rule,
-        reasons=(Reason("inadmissible_record", str(error), Verdict.UNDETERMINED),),
+        reasons=(
+            Reason("inadmissible_record", str(error), Verdict.UNDETERMINED),
+            *record_gaps(record),
+        ),
         limit_probability=None,
         driving_contact=None,
         worst_utilisation=nothing,

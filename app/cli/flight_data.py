@@ -9,18 +9,21 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from app.cli.flight_data_response import response_document, show_responses
 from app.cli.input_file import refuse
 from app.cli.progress import progress_bars
 from app.config import get_settings
+from app.flight_data.intake import recorded_mass
+from solver.assimilation.assimilate import Assimilation, assimilate, uncorrected
 from solver.errors import FlightDataError, RecordError, SolverError
 from solver.flight_data.frame import RecorderFrame
 from solver.flight_data.frame_file import packaged_frame, read_frame
-from solver.flight_data.geometry import Geometry, aircraft_geometry, point_geometry
-from solver.flight_data.parameter import Parameter
+from solver.flight_data.geometry import aircraft_geometry, point_geometry
 from solver.flight_data.reading import read_window
 from solver.flight_data.reconstruction import FoundContact, Reconstruction, reconstruct
 from solver.flight_data.touchdown import Estimate
 from solver.flight_data.window import Window
+from solver.landing.aircraft import LandingAircraft
 
 #: Unit of each component of a state, as its key says it.
 UNITS = {
@@ -52,18 +55,26 @@ def flight_data(
     """Show what a recorder window holds: channels, contacts, states, or why it cannot tell."""
     try:
         window = read_window(file, _frame(frame))
-        geometry = _geometry(aircraft, window)
+        simulated = _aircraft(aircraft, window)
     except FlightDataError as error:
         refuse(f"{file}: {error}", error)
     except (SolverError, OSError) as error:
         refuse(str(error), error)
+    geometry = point_geometry() if simulated is None else aircraft_geometry(simulated)
     found = reconstruct(window, geometry)
+    responses = (
+        uncorrected(found, "no --aircraft to simulate")
+        if simulated is None
+        else assimilate(window, found, simulated, geometry)
+    )
     if plot is not None:
         _draw(plot, window, found)
     if as_json:
-        typer.echo(json.dumps(document(window, found, aircraft), indent=1))
+        typer.echo(json.dumps(document(window, found, aircraft, responses), indent=1))
     else:
-        show(window, found, aircraft, Console())
+        console = Console()
+        show(window, found, aircraft, console)
+        show_responses(responses, console)
 
 
 def _frame(name: str | None) -> RecorderFrame | None:
@@ -73,9 +84,9 @@ def _frame(name: str | None) -> RecorderFrame | None:
     return read_frame(path) if path.suffix == ".toml" else packaged_frame(name)
 
 
-def _geometry(aircraft: str | None, window: Window) -> Geometry:
+def _aircraft(aircraft: str | None, window: Window) -> LandingAircraft | None:
     if aircraft is None:
-        return point_geometry()
+        return None
     from solver.aircraft.airframe import load_airframe
 
     folder = get_settings().aircraft_folder / aircraft
@@ -83,11 +94,8 @@ def _geometry(aircraft: str | None, window: Window) -> Geometry:
         raise RecordError(f"no aircraft {aircraft!r} in {folder.parent}")
     with progress_bars() as progress:
         airframe = load_airframe(folder, progress)
-    recorded = window.first(Parameter.GROSS_MASS)
-    mass = None if recorded is None else float(np.median(recorded.value))
-    return aircraft_geometry(
-        airframe.landing_aircraft(airframe.loading_for(mass=mass, fuel={}, payload={}).factors)
-    )
+    loading = airframe.loading_for(mass=recorded_mass(window), fuel={}, payload={})
+    return airframe.landing_aircraft(loading.factors)
 
 
 def _draw(path: Path, window: Window, found: Reconstruction) -> None:
@@ -101,7 +109,9 @@ def _draw(path: Path, window: Window, found: Reconstruction) -> None:
         refuse(f"{path}: {error}", error)
 
 
-def document(window: Window, found: Reconstruction, aircraft: str | None) -> dict[str, Any]:
+def document(
+    window: Window, found: Reconstruction, aircraft: str | None, responses: Assimilation
+) -> dict[str, Any]:
     """Plain JSON values, units in the key names."""
     return {
         "frame": None if window.frame is None else window.frame.name,
@@ -125,6 +135,7 @@ def document(window: Window, found: Reconstruction, aircraft: str | None) -> dic
         ],
         "normal_acceleration_offset_g": found.datum.offset if found.datum else None,
         "contacts": [_contact(contact) for contact in found.contacts],
+        "responses": [response_document(update) for update in responses.updates],
     }
 
 

@@ -2,19 +2,8 @@
 
 from pydantic import BaseModel, Field
 
+from app.flight_data.contact_answers import ContactFound
 from app.landings.answers import LandingAccepted
-
-
-class ContactFound(BaseModel):
-    """One ground contact of the window."""
-
-    kind: str
-    gear: str
-    time_s: float = Field(description="On the window's clock.")
-    time_sd_s: float
-    sink_rate_m_s: float = Field(description="Of the centre of gravity, downward.")
-    sink_rate_sd_m_s: float
-    gear_sink_rates_m_s: dict[str, float]
 
 
 class CannotTell(BaseModel):

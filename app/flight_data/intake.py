@@ -6,25 +6,32 @@ from typing import Any
 
 import numpy as np
 
+from app.fleet.landing_aircraft import landing_aircraft
+from app.fleet.registry import RegisteredAircraft
 from app.flight_data.schemas import WindowQuery
 from app.landings.field_errors import FieldError, InvalidRecordError
 from solver.aircraft.definition import AircraftDefinition
-from solver.errors import FlightDataError, ModelError
-from solver.flight_data.contacts import ContactKind
+from solver.assimilation.assimilate import (
+    Assimilation,
+    ContactUpdate,
+    assimilate,
+    uncorrected,
+)
+from solver.errors import FlightDataError, ModelError, SolverError
 from solver.flight_data.frame_file import frame_names, packaged_frame
 from solver.flight_data.geometry import Geometry, Place, geometry_on_gears
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reading import read_window
 from solver.flight_data.reconstruction import FoundContact, Reconstruction, reconstruct
 from solver.flight_data.table import Limits
-from solver.flight_data.touchdown import Estimate
-from solver.flight_data.window import Window
+from solver.flight_data.window import Note, Window
+from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
 
 #: Height of the centre of gravity above the main gears' pivots where nobody says [m].  It matters
 #: little: the accelerometer is taken at the same height.
 _ABOVE_PIVOTS = 0.5
 
-#: After a contact in which its peaks of normal and lateral acceleration fall [s].
+#: How long after the last wheel came down peaks of the accelerations may still fall [s].
 _PEAK_SPAN = 0.6
 
 #: A record lists no more contacts.
@@ -32,8 +39,16 @@ _MOST_CONTACTS = 12
 
 _FIRST_GEAR = {Place.LEFT: "ML", Place.RIGHT: "MR", Place.NOSE: "N"}
 
-#: The landing simulation brings the other wheels down by itself.
-_FOLLOWING = (ContactKind.DEROTATION, ContactKind.MAINS)
+_UNITS = {
+    "sink_rate": "m/s",
+    "pitch": "rad",
+    "roll": "rad",
+    "drift": "rad",
+    "ground_speed": "m/s",
+    "pitch_rate": "rad/s",
+    "roll_rate": "rad/s",
+    "yaw_rate": "rad/s",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,14 +57,17 @@ class WindowIntake:
 
     window: Window
     found: Reconstruction
+    responses: Assimilation  #: its contacts as the record states them
+    notes: tuple[Note, ...]
     record: dict[str, Any]  #: as it would be posted
     digest: str  #: of file and query
 
 
 def take_in_window(
-    content: bytes, query: WindowQuery, definition: AircraftDefinition
+    content: bytes, query: WindowQuery, aircraft: RegisteredAircraft
 ) -> WindowIntake:
     """Read a window and reconstruct its contacts; raises `InvalidRecordError` saying where."""
+    definition = aircraft.definition
     try:
         frame = packaged_frame(query.frame) if query.frame else None
     except ModelError as error:
@@ -62,14 +80,38 @@ def take_in_window(
         raise InvalidRecordError([fault]) from error
     geometry = definition_geometry(definition, window)
     found = reconstruct(window, geometry)
+    responses, notes = _responses(window, found, geometry, aircraft)
     content_digest = hashlib.sha256(content).hexdigest()
     identity = f"{content_digest} {query.aircraft} {query.tail} {query.frame}"
     return WindowIntake(
         window=window,
         found=found,
-        record=_record(query, window, found, geometry, content_digest),
+        responses=responses,
+        notes=(*window.notes, *notes),
+        record=_record(query, window, found, responses, geometry, content_digest),
         digest=hashlib.sha256(identity.encode()).hexdigest(),
     )
+
+
+def _responses(
+    window: Window, found: Reconstruction, geometry: Geometry, aircraft: RegisteredAircraft
+) -> tuple[Assimilation, tuple[Note, ...]]:
+    """Contacts corrected by the responses to them, if the aircraft can be simulated."""
+    if not found.contacts:
+        return Assimilation(()), ()
+    try:
+        simulated = landing_aircraft(aircraft, recorded_mass(window))
+    except SolverError as error:
+        # A mass that no loading has is refused with the record, a broken mesh shows in its job.
+        note = Note("response_not_compared", f"recorded responses are not compared: {error}")
+        return uncorrected(found, str(error)), (note,)
+    return assimilate(window, found, simulated, geometry), ()
+
+
+def recorded_mass(window: Window) -> float | None:
+    """Gross mass that a window states [kg]."""
+    mass = window.first(Parameter.GROSS_MASS)
+    return None if mass is None else float(np.median(mass.value))
 
 
 def definition_geometry(definition: AircraftDefinition, window: Window) -> Geometry:
@@ -79,11 +121,11 @@ def definition_geometry(definition: AircraftDefinition, window: Window) -> Geome
     gears = tuple(gear.gear(np.zeros((len(gear.pins), 3))) for gear in definition.gears)
     pivots = [float(gear.pivot[2]) for gear in gears]
     centre = np.array([(forward + aft) / 2, 0.0, max(pivots) + _ABOVE_PIVOTS])
-    mass = window.first(Parameter.GROSS_MASS)
+    mass = recorded_mass(window)
     return geometry_on_gears(
         gears,
         centre,
-        definition.masses.maximum_landing if mass is None else float(np.median(mass.value)),
+        definition.masses.maximum_landing if mass is None else mass,
         # Anywhere in the allowed range: uniform, variance (aft - forward)^2 / 12.
         centre_of_gravity_sd=(aft - forward) / np.sqrt(12.0),
     )
@@ -93,6 +135,7 @@ def _record(
     query: WindowQuery,
     window: Window,
     found: Reconstruction,
+    responses: Assimilation,
     geometry: Geometry,
     content_digest: str,
 ) -> dict[str, Any]:
@@ -107,41 +150,58 @@ def _record(
         "aircraft": aircraft,
         "source": source,
     }
-    mass = window.first(Parameter.GROSS_MASS)
+    mass = recorded_mass(window)
     if mass is not None:
-        value = float(np.median(mass.value))
-        record["mass"] = {"gross_weight": {"value": value, "unit": "kg", "sd": 0.01 * value}}
-    landed = [c for c in found.contacts if c.kind not in _FOLLOWING][:_MOST_CONTACTS]
+        record["mass"] = {"gross_weight": {"value": mass, "unit": "kg", "sd": 0.01 * mass}}
     places = {wheel.gear: wheel.place for wheel in geometry.wheels}
+    landed = [update.found for update in responses.updates]
     # A window that cannot tell is a landing all the same: one contact of which nothing is known.
-    record["contacts"] = [_contact(c, landed[0], window, places) for c in landed] or [{}]
+    record["contacts"] = [
+        _contact(update, _peaks_until(update.found, landed, found.contacts), window, places)
+        for update in responses.updates[:_MOST_CONTACTS]
+    ] or [{}]
     return record
 
 
+def _peaks_until(
+    contact: FoundContact, landed: list[FoundContact], every: tuple[FoundContact, ...]
+) -> float:
+    """Time up to which peaks are those of a contact: the next one, or the last wheel down [s]."""
+    later = [other.time for other in landed if other.time > contact.time]
+    if later:
+        return min(later)
+    return max(other.time for other in every) + _PEAK_SPAN
+
+
 def _contact(
-    contact: FoundContact, first: FoundContact, window: Window, places: dict[str, Place]
+    update: ContactUpdate, peaks_until: float, window: Window, places: dict[str, Place]
 ) -> dict[str, Any]:
-    state = contact.state
-    sink = state.sink_rate
+    found, contact = update.found, update.contact
+    sds = np.sqrt(np.diag(update.uncertainty.matrix))
+    sd = dict(zip(CONTACT_COMPONENTS, sds.tolist(), strict=True))
+    silent = () if update.is_corrected else found.state.assumed
     given: dict[str, Any] = {
-        "time": _number(Estimate(contact.time - first.time, contact.time_sd), "s"),
-        "t_sd_s": contact.time_sd,
-        "first_gear": _FIRST_GEAR[places[contact.gear]],
-        # The softest contact still comes down.
-        "sink_rate": _number(Estimate(max(sink.value, 0.01), sink.sd), "m/s")
-        | {"method": "smoother"},
-        "pitch": _number(state.pitch, "rad"),
-        "roll": _number(state.roll, "rad"),
-        "pitch_rate": _number(state.pitch_rate, "rad/s"),
-        "roll_rate": _number(state.roll_rate, "rad/s"),
-        "lift_fraction": _number(
-            Estimate(float(np.clip(state.lift_fraction.value, 0.0, 1.5)), state.lift_fraction.sd),
-            "1",
-        ),
+        "time": _number(contact.time, found.time_sd, "s"),
+        "t_sd_s": found.time_sd,
+        "first_gear": _FIRST_GEAR[places[found.gear]],
     }
-    for name, unit in (("drift", "rad"), ("ground_speed", "m/s"), ("yaw_rate", "rad/s")):
-        if name not in state.assumed:
-            given[name] = _number(getattr(state, name), unit)
+    for name, unit in _UNITS.items():
+        if name not in silent and np.isfinite(sd[name]):
+            given[name] = _number(getattr(contact, name), sd[name], unit)
+    given["sink_rate"]["method"] = "smoother + response" if update.is_corrected else "smoother"
+    given["lift"] = {
+        "model": contact.lift.model.value,
+        "fraction": _number(contact.lift.fraction, sd["lift_fraction"], "1"),
+    }
+    if update.is_corrected:
+        lift, scatter = contact.lift, update.deviations
+        given["lift"] |= {
+            "decay_start": _number(
+                lift.decay_start, lift.decay_start * scatter["decay_start"], "s"
+            ),
+            "decay_time": _number(lift.decay_time, lift.decay_time * scatter["decay_time"], "s"),
+            "residual_fraction": _number(lift.residual_fraction, scatter["residual_lift"], "1"),
+        }
     for name, parameter, size in (
         ("nz_peak", Parameter.NORMAL_ACCELERATION, np.positive),
         ("ny_peak", Parameter.LATERAL_ACCELERATION, np.abs),
@@ -149,7 +209,7 @@ def _contact(
         channel = window.first(parameter)
         if channel is None:
             continue
-        inside = (channel.time > contact.time) & (channel.time < contact.time + _PEAK_SPAN)
+        inside = (channel.time > found.time) & (channel.time < peaks_until)
         if np.any(inside):
             values = channel.value[inside]
             peak = float(values[np.argmax(size(values))])
@@ -157,5 +217,5 @@ def _contact(
     return given
 
 
-def _number(estimate: Estimate, unit: str) -> dict[str, Any]:
-    return {"value": float(estimate.value), "unit": unit, "sd": float(estimate.sd)}
+def _number(value: float, sd: float, unit: str) -> dict[str, Any]:
+    return {"value": float(value), "unit": unit, "sd": float(sd)}

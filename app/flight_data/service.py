@@ -6,12 +6,14 @@ from sqlalchemy import Engine
 
 from app.config import Settings
 from app.fleet.registry import AircraftRegistry
-from app.flight_data.answers import CannotTell, ContactFound, WindowAccepted, WindowNote
+from app.flight_data.answers import CannotTell, WindowAccepted, WindowNote
+from app.flight_data.contact_answers import contact_found
 from app.flight_data.intake import WindowIntake, take_in_window
 from app.flight_data.schemas import WindowQuery
 from app.landings import service as landings
+from app.landings.arrivals import Reconstructed
 from app.landings.field_errors import FieldError, InvalidRecordError
-from app.landings.intake import parse_record
+from app.landings.intake import NEEDED_FOR_A_VERDICT, parse_record
 from app.security import Principal
 
 
@@ -31,7 +33,7 @@ def accept(
         known = ", ".join(a.definition.name for a in registry.all()) or "none yet"
         fault = FieldError("aircraft", query.aircraft, known, "no such aircraft definition")
         raise InvalidRecordError([fault])
-    intake = take_in_window(content, query, aircraft.definition)
+    intake = take_in_window(content, query, aircraft)
     accepted = landings.accept(
         engine,
         settings,
@@ -41,30 +43,33 @@ def accept(
         lane=query.lane,
         idempotency_key=idempotency_key,
         body_digest=intake.digest,
-        lacking=tuple(f"{each.settled_by} ({each.reason})" for each in intake.found.cannot_tell),
+        reconstructed=_reconstructed(intake),
     )
     return WindowAccepted(**accepted.model_dump(), **_understood(intake))
 
 
+def _reconstructed(intake: WindowIntake) -> Reconstructed:
+    given = intake.record["contacts"]
+    return Reconstructed(
+        lacking=tuple(f"{each.settled_by} ({each.reason})" for each in intake.found.cannot_tell),
+        unexplained=intake.responses.unexplained,
+        uncertainties=tuple(
+            uncertainty
+            for contact, uncertainty in zip(given, intake.responses.uncertainties, strict=False)
+            if all(name in contact for name in NEEDED_FOR_A_VERDICT)
+        ),
+    )
+
+
 def _understood(intake: WindowIntake) -> dict[str, Any]:
+    updates = {id(update.found): update for update in intake.responses.updates}
     return {
         "contacts": [
-            ContactFound(
-                kind=contact.kind,
-                gear=contact.gear,
-                time_s=contact.time,
-                time_sd_s=contact.time_sd,
-                sink_rate_m_s=contact.state.sink_rate.value,
-                sink_rate_sd_m_s=contact.state.sink_rate.sd,
-                gear_sink_rates_m_s={
-                    gear: estimate.value for gear, estimate in contact.state.gear_sink_rates.items()
-                },
-            )
-            for contact in intake.found.contacts
+            contact_found(contact, updates.get(id(contact))) for contact in intake.found.contacts
         ],
         "cannot_tell": [
             CannotTell(code=each.code, reason=each.reason, settled_by=each.settled_by)
             for each in intake.found.cannot_tell
         ],
-        "notes": [WindowNote(code=n.code, text=n.text) for n in intake.window.notes],
+        "notes": [WindowNote(code=n.code, text=n.text) for n in intake.notes],
     }

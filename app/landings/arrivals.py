@@ -14,6 +14,8 @@ from app.landings.intake import take_in, unknown_aircraft
 from app.landings.schemas import TouchdownRecordIn
 from app.security import Principal
 from solver.aircraft.definition import AircraftDefinition
+from solver.assessment import TouchdownRecord
+from solver.landing.contact_uncertainty import ContactUncertainty
 
 Fleet = Mapping[str, AircraftDefinition]
 
@@ -34,6 +36,24 @@ class Arrival:
     taken_as_zero: list[str]
 
 
+@dataclass(frozen=True, slots=True)
+class Reconstructed:
+    """What is known of a record that was made from a recording, besides the record itself."""
+
+    lacking: tuple[str, ...]  #: what keeps it from carrying a verdict, in place of missing fields
+    unexplained: tuple[str, ...]  #: recorded responses that do not fit
+    uncertainties: tuple[ContactUncertainty, ...]  #: of each contact whose state is known
+
+    def onto(self, record: TouchdownRecord) -> TouchdownRecord:
+        """Record with all that."""
+        return replace(
+            record,
+            missing=self.lacking or record.missing,
+            unexplained=self.unexplained,
+            uncertainties=self.uncertainties,
+        )
+
+
 def fleet(registry: AircraftRegistry) -> Fleet:
     """Aircraft that records may name now."""
     return {aircraft.definition.name: aircraft.definition for aircraft in registry.all()}
@@ -45,11 +65,11 @@ def check(
     known: Fleet,
     *,
     body_digest: str | None = None,
-    lacking: tuple[str, ...] = (),
+    reconstructed: Reconstructed | None = None,
 ) -> Arrival:
     """Convert a record; raises `InvalidRecordError` for what cannot be taken in.
 
-    ``body_digest`` and ``lacking`` as in `service.accept`.
+    ``body_digest`` and ``reconstructed`` as in `service.accept`.
     """
     definition = known.get(record.aircraft.model_id)
     if definition is None:
@@ -66,8 +86,8 @@ def check(
             ]
         )
     intake = take_in(record, definition)
-    if lacking:
-        intake.record = replace(intake.record, missing=lacking)
+    if reconstructed is not None:
+        intake.record = reconstructed.onto(intake.record)
     posted = record.model_dump(mode="json", by_alias=True, exclude_unset=True)
     body_digest = body_digest or _digest(posted)
     return Arrival(

@@ -28,6 +28,7 @@ def from_json(stored: dict[str, Any]) -> TouchdownRecord:
         "missing": tuple(stored["missing"]),
         "recorded": recorded,
         "uncertainties": uncertainties,
+        "unexplained": tuple(stored.get("unexplained", ())),
     }
     return TouchdownRecord(**{**stored, **fields})
 

@@ -15,7 +15,7 @@ from app.errors import not_found, problem
 from app.fleet.registry import AircraftRegistry
 from app.landings import arrivals, repository
 from app.landings.answers import LandingAccepted, LandingDetail, LandingFilter, LandingSummary
-from app.landings.arrivals import Arrival
+from app.landings.arrivals import Arrival, Reconstructed
 from app.landings.repository import Kept
 from app.landings.schemas import TouchdownRecordIn
 from app.paging import Page, decode_cursor, encode_cursor
@@ -33,15 +33,17 @@ def accept(
     lane: str,
     idempotency_key: str | None,
     body_digest: str | None = None,
-    lacking: tuple[str, ...] = (),
+    reconstructed: Reconstructed | None = None,
 ) -> LandingAccepted:
     """Store a landing and its assessment in one transaction, or find the one it repeats.
 
     ``body_digest`` is the identity of what the record was made from, where that is not the record
-    itself; ``lacking`` is what keeps it from carrying a verdict besides its missing fields.
+    itself; ``reconstructed`` is what else is known where it was made from a recording.
     """
     known = arrivals.fleet(registry)
-    arrival = arrivals.check(record, principal, known, body_digest=body_digest, lacking=lacking)
+    arrival = arrivals.check(
+        record, principal, known, body_digest=body_digest, reconstructed=reconstructed
+    )
     try:
         kept = _accept(engine, settings, principal, arrival, lane, idempotency_key)
     except IntegrityError:

@@ -204,6 +204,7 @@ class VerdictThresholds:
     overweight_factor: float  #: on both above the maximum landing mass
     roll_limit: float  #: at a contact [rad]
     nose_first: Verdict  #: least verdict when the nose gear touches first
+    nose_closure_limit: float  #: vertical speed of the nose wheel at its touchdown [m/s]
     inspect_probability: float  #: that a limit allowable is exceeded, from here INSPECT
     hard_probability: float  #: the same, from here HARD
 

@@ -296,6 +296,9 @@ class VerdictSection(Section):
     overweight_factor: Annotated[float, Field(gt=0, le=1)]  #: on both above maximum landing mass
     roll_limit_deg: Annotated[float, Field(gt=0, le=45)]  #: at a contact, from here INSPECT
     nose_first: Literal["NORMAL", "FIRM", "INSPECT", "HARD"]  #: least verdict, nose gear first
+    #: vertical speed of the nose wheel at its touchdown, from here INSPECT.  By itself a nose comes
+    #: down at up to 1.7 m/s; nose gears were damaged inside below their limit loads.
+    nose_closure_limit_m_s: Annotated[float, Field(gt=0, le=6)] = 2.0
     #: what a missed exceedance costs over what a needless inspection costs
     missed_over_needless_cost: Annotated[float, Field(ge=1, le=1e4)] = 20.0
     hard_probability: Annotated[float, Field(gt=0, lt=1)] = 0.9  #: from here HARD

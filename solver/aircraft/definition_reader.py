@@ -90,6 +90,7 @@ def _definition(checked: file.DefinitionFile) -> values.AircraftDefinition:
             inspect_utilisation=checked.verdict.inspect_utilisation,
             overweight_factor=checked.verdict.overweight_factor,
             roll_limit=math.radians(checked.verdict.roll_limit_deg),
+            nose_closure_limit=checked.verdict.nose_closure_limit_m_s,
             nose_first=Verdict(checked.verdict.nose_first),
             # Looking costs 1, not looking the ratio times the probability over its complement.
             inspect_probability=1.0 / (1.0 + checked.verdict.missed_over_needless_cost),

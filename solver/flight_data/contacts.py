@@ -6,7 +6,7 @@ from enum import StrEnum
 import numpy as np
 
 from solver.arrays import Array
-from solver.flight_data.alignment import Series, aligned, best
+from solver.flight_data.alignment import Series, aligned
 from solver.flight_data.geometry import Place
 from solver.flight_data.onset import Indicator, rise_onset
 from solver.flight_data.parameter import Parameter
@@ -18,7 +18,8 @@ class ContactKind(StrEnum):
     """What a contact is in the course of a landing."""
 
     FIRST = "first"  #: out of the flight
-    BOUNCE = "bounce"  #: main wheels again, after they had left the ground
+    BOUNCE = "bounce"  #: main wheels again, after all of them had left the ground
+    ONE_GEAR = "one_gear"  #: one main gear again, while another had stayed on the ground
     NOSE_FIRST = "nose_first"  #: the nose wheel before the mains
     MAINS = "mains"  #: the main wheels, after the nose wheel
     DEROTATION = "derotation"  #: the nose wheel, with the mains on the ground or just off it
@@ -32,6 +33,7 @@ class ContactTime:
     time: float  #: [s]
     sd: float  #: [s]
     vote: Vote
+    chance: float = 1.0  #: that there was such a contact
 
 
 #: Name of the chief indicator.
@@ -48,19 +50,6 @@ LEAST_RISE = 0.06
 
 #: Rises closer than this are one [s].
 CLOSE = 0.3
-
-#: Its first step over the usual one from sample to sample.
-SUDDEN = 6.0
-
-#: Above this it is no gust.
-PLAIN = 9.0
-
-#: What is still looked at, if the wheels are at the ground by the smoothed height.
-WEAK = 4.0
-
-#: Radio altitude below which a rise may be the first contact; antenna, bias and gaps between
-#: samples leave that much [m].
-NEAR = 2.0
 
 #: A gust changes the normal acceleration by more than this only over a longer time [g].
 GUST = 0.02
@@ -137,24 +126,6 @@ def _pull(drag: Series, time: float) -> float:
     return max(0.0, float(drag.value[before] - drag.value[after].min() + trend) / usual)
 
 
-def first_rises(window: Window, normal: Series) -> list[Rise]:
-    """Rises out of the flight that may be the first contact: near the ground, before the switches.
-
-    In order of time; a soft contact can be so soft that there is none.
-    """
-    low = _lowest_approach(window)
-    if low is None:
-        return []
-    switch = first_closed(window)
-    drag = best(window, Parameter.LONGITUDINAL_ACCELERATION)
-    return [
-        rise
-        for rise in rises(normal, drag, *low, sudden=WEAK)
-        if (switch is None or rise.time < switch + 2 * normal.interval)
-        and rough_height(window, rise.time) < (NEAR if not is_plain(rise) else 2 * NEAR)
-    ]
-
-
 def likely_contact(window: Window) -> float | None:
     """Rough time of a first contact that no shock shows: radio altitude, or the switches [s]."""
     if (switch := first_closed(window)) is not None:
@@ -169,20 +140,6 @@ def likely_contact(window: Window) -> float | None:
     return float(np.mean(times)) if times else None
 
 
-def rough_height(window: Window, time: float) -> float:
-    """Radio altitude at a time, interpolated; 0 where there is none [m]."""
-    heights = [
-        float(np.interp(time, radio.time, radio.value))
-        for radio in aligned(window, Parameter.RADIO_ALTITUDE)
-    ]
-    return float(np.mean(heights)) if heights else 0.0
-
-
-def is_plain(rise: Rise) -> bool:
-    """Whether a rise is too sudden for anything but a shock."""
-    return rise.suddenness > PLAIN
-
-
 def speaks(contact: ContactTime, name: str) -> bool:
     """Whether an indicator took part in the vote on a contact."""
     return any(ballot.name == name for ballot in contact.vote.ballots)
@@ -193,10 +150,11 @@ def timed(
     normal: Series,
     around: tuple[float, float],
     kind: ContactKind,
-    height: tuple[Array, Array, Array] | None,
-    rise: Rise | None,
+    height: tuple[Array, Array, Array],
+    rise: Rise,
+    apart: float,
 ) -> ContactTime | None:
-    """Let the indicators vote on the time of one contact; None if none of them speaks.
+    """Let the indicators vote on the time of a later contact; None if none of them speaks.
 
     Parameters
     ----------
@@ -206,31 +164,20 @@ def timed(
     around : (float, float)
         First and last time considered [s].
     kind : ContactKind
-    height : ((n,), (n,), (n,)), optional
+    height : ((n,), (n,), (n,))
         Time, smoothed height of the wheel and its standard deviation [s, m, m].
-    rise : Rise, optional
+    rise : Rise
         Of the normal acceleration, that belongs to it.
+    apart : float
+        Time by which the other main gear comes down later, by the roll angle [s].
     """
     grid = np.arange(*around, STEP)
-    indicators: list[Indicator | None] = []
-    places = (Place.NOSE,) if kind is ContactKind.DEROTATION else (Place.LEFT, Place.RIGHT)
-    if rise is not None:
-        until = rise.time + 0.08
-        indicators.append(
-            rise_onset(ONSET, normal, grid, 1.0, GUST, until, kind is ContactKind.BOUNCE)
-        )
-        drag = best(window, Parameter.LONGITUDINAL_ACCELERATION)
-        if drag is not None and drag.channel.rate >= 4 and kind is ContactKind.FIRST:
-            indicators.append(rise_onset(SPIN_UP, drag, grid, -1.0, GUST, until))
-    switches = [
-        series
-        for parameter in (*(_SWITCH_OF[place] for place in places), Parameter.GEAR_ANY)
-        for series in aligned(window, parameter)
+    course = (np.interp(grid, height[0], h) for h in height[1:])
+    indicators: list[Indicator | None] = [
+        rise_onset(ONSET, normal, grid, GUST, rise.time + 0.08, apart),
+        switch_indicator("ground switches", main_switches(window), grid),
+        height_indicator("wheel height", grid, *course),
     ]
-    indicators.append(switch_indicator("ground switches", switches, grid))
-    if height is not None:
-        course = (np.interp(grid, height[0], h) for h in height[1:])
-        indicators.append(height_indicator("wheel height", grid, *course))
     speaking = [each for each in indicators if each is not None]
     if not speaking:
         return None
@@ -238,21 +185,18 @@ def timed(
     return ContactTime(kind, result.time, result.sd, result)
 
 
-def _lowest_approach(window: Window) -> tuple[float, float] | None:
-    """From when to when the aircraft may first touch, from radio altitude or switches."""
-    radios = aligned(window, Parameter.RADIO_ALTITUDE)
-    starts = []
-    for radio in radios:
-        below = np.flatnonzero(radio.value < 6.0)
-        # Out of the flight: something higher must come before it.
-        if len(below) and below[0] > 0:
-            starts.append(float(radio.time[below[0] - 1]))
-    if starts:
-        return min(starts) - 1.0, max(starts) + 15.0
-    switch = first_closed(window)
-    if switch is not None:
-        return switch - 4.0, switch + 0.5
-    return None
+def main_switches(window: Window) -> list[Series]:
+    """Ground switches that speak of the main gears."""
+    return switches_of(window, Place.LEFT, Place.RIGHT)
+
+
+def switches_of(window: Window, *places: Place) -> list[Series]:
+    """Ground switches that speak of the gears at some places."""
+    return [
+        series
+        for parameter in (*(_SWITCH_OF[place] for place in places), Parameter.GEAR_ANY)
+        for series in aligned(window, parameter)
+    ]
 
 
 def first_closed(window: Window) -> float | None:

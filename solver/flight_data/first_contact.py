@@ -1,34 +1,63 @@
-"""The first contact of a window: which rise it is, and when."""
+"""The first contact of a window, by the evidence of all indicators over all times it may have."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 
 from solver.arrays import Array
-from solver.flight_data.alignment import Series
+from solver.flight_data.alignment import Series, best
 from solver.flight_data.contacts import (
     ONSET,
-    SUDDEN,
+    SPIN_UP,
     ContactKind,
     ContactTime,
-    Rise,
-    first_rises,
-    is_plain,
     likely_contact,
-    speaks,
-    timed,
+    main_switches,
 )
 from solver.flight_data.datum import Datum, normal_datum
 from solver.flight_data.geometry import Geometry, Place
+from solver.flight_data.onset import Indicator, indicator
+from solver.flight_data.parameter import Parameter
 from solver.flight_data.smoothing import SETTLING, smooth_window
 from solver.flight_data.sufficiency import Shortcoming, UndeterminedError, check_gaps
 from solver.flight_data.touchdown import Courses
-from solver.flight_data.vote import Vote
+from solver.flight_data.undisturbed import IMPACT, SPIN_UP_PULL, shock_evidence
+from solver.flight_data.vote import Vote, first_time_down, switch_indicator, vote
 from solver.flight_data.wheels import lowest_course
 from solver.flight_data.window import Window
 
 #: How well a smoothed height is trusted besides its own standard deviation [m].
 _HEIGHT_SD = 0.1
+
+#: Seconds before the range of times that show how the aircraft flew.
+_HISTORY = 5.0
+
+#: Chance that a shock shows something else.
+_DOUBT = 0.003
+
+#: Step of the times considered [s].
+_STEP = 0.01
+
+#: Times closer than this belong to one hypothesis [s].
+_APART = 0.2
+
+#: Before and after a hypothesis in which its indicators are compared [s].
+_AROUND = (0.3, 0.25)
+
+#: Power of the likelihoods: those of models that are not quite right are too sure of themselves
+#: (tempering; P. D. Gruenwald, T. van Ommen, Bayesian Analysis 12 (2017) 1069).
+_TEMPER = 0.5
+
+#: Less likely hypotheses are left out.
+_LEAST_CHANCE = 0.003
+
+#: A guess farther off than this is made good and the height smoothed again [s].
+_ROUGH = 0.4
+
+#: Before and after the guess in which the first contact is sought [s].
+_SOUGHT = (3.5, 2.0)
 
 #: What the rise of the normal acceleration is late by when the nose wheel touches first: its
 #: load is a fraction of the mains' and mostly turns the aircraft [s].
@@ -41,39 +70,125 @@ _NO_CONTACT = Shortcoming(
 )
 
 
-def first_contact(window: Window, normal: Series, geometry: Geometry) -> tuple[ContactTime, Datum]:
-    """Find a sudden rise with the wheels at the ground, or else where the height passes zero.
+@dataclass(frozen=True, slots=True)
+class Hypothesis:
+    """One time the first contact may have had."""
+
+    contact: ContactTime
+    chance: float  #: that it is the right one
+
+
+def first_contact(
+    window: Window, normal: Series, geometry: Geometry
+) -> tuple[tuple[Hypothesis, ...], Datum]:
+    """Weigh all times of a range by shock, spin-up, wheel height and ground switches.
+
+    Returns
+    -------
+    tuple of Hypothesis
+        The likeliest first; chances sum to one.
+    Datum
 
     Raises
     ------
     UndeterminedError
         Nothing shows a contact, or a needed channel has a gap there.
     """
-    candidates = first_rises(window, normal)
-    strong = [rise for rise in candidates if rise.suddenness >= SUDDEN] or candidates
-    for rise in strong:
-        datum, height = _untied_height(window, normal, geometry, rise.time)
-        for other in candidates:
-            at, doubt = (float(np.interp(other.time, height[0], each)) for each in height[1:])
-            if other.time > rise.time or at > doubt * _trust(other):
-                continue
-            around = (other.time - normal.interval - 0.2, other.time + 0.05)
-            contact = timed(window, normal, around, ContactKind.FIRST, height, other)
-            if contact is not None and (is_plain(other) or speaks(contact, ONSET)):
-                return contact, datum
-    guess = strong[0].time if strong else likely_contact(window)
-    if guess is None or not normal.time[0] + 2.0 < guess < normal.time[-1] - 1.0:
+    guess = likely_contact(window)
+    if guess is None:
         raise UndeterminedError(_NO_CONTACT)
+    found, datum = _weighed(window, normal, geometry, guess)
+    if abs(found[0].contact.time - guess) > _ROUGH:
+        found, datum = _weighed(window, normal, geometry, found[0].contact.time)
+    return found, datum
+
+
+def _weighed(
+    window: Window, normal: Series, geometry: Geometry, guess: float
+) -> tuple[tuple[Hypothesis, ...], Datum]:
+    """Hypotheses around a guess, which the smoothed height is made for."""
+    if not normal.time[0] + 2.0 < guess < normal.time[-1] - 1.0:
+        raise UndeterminedError(_NO_CONTACT)
+    check_gaps(window, guess)
     datum, height = _untied_height(window, normal, geometry, guess)
-    down = np.flatnonzero(height[1] < 0)
-    if len(down) == 0:
-        raise UndeterminedError(_NO_CONTACT)
-    crossing = float(height[0][down[0]])
-    around = (crossing - 1.0, crossing + 0.6)
-    contact = timed(window, normal, around, ContactKind.FIRST, height, None)
-    if contact is None:
-        raise UndeterminedError(_NO_CONTACT)
-    return contact, datum
+    grid = height[0]
+    shocks = _shocks(window, normal, grid)
+    total = first_time_down(*height)
+    for _, log in shocks:
+        total = total + _doubted(log)
+    switches = switch_indicator("ground switches", main_switches(window), grid)
+    if switches is not None:
+        total = total + switches.log_likelihood
+    weight = np.exp(total - total.max())
+    weight /= weight.sum()
+    found = []
+    for start, end in _hypotheses(total):
+        chance = float(weight[start:end].sum() ** _TEMPER)
+        if chance > _LEAST_CHANCE:
+            peak = float(grid[start + int(np.argmax(total[start:end]))])
+            found.append(Hypothesis(_timed(window, grid, height, shocks, peak), chance))
+    found.sort(key=lambda each: -each.chance)
+    sum_of_chances = sum(each.chance for each in found)
+    return tuple(replace(each, chance=each.chance / sum_of_chances) for each in found), datum
+
+
+def _shocks(window: Window, normal: Series, grid: Array) -> list[tuple[str, Array]]:
+    found = [(ONSET, _blurred(normal, shock_evidence(normal, grid, IMPACT, _HISTORY)))]
+    drag = best(window, Parameter.LONGITUDINAL_ACCELERATION)
+    if drag is not None and drag.channel.rate >= 4:
+        log = shock_evidence(drag, grid, SPIN_UP_PULL, _HISTORY)
+        found.append((SPIN_UP, _blurred(drag, log)))
+    return found
+
+
+def _blurred(series: Series, log: Array) -> Array:
+    """Add what shifts the onset of a channel besides noise: its delay, the shape of the shock."""
+    sd = float(np.hypot(series.entry.delay_scatter.value, 0.1 * series.interval))
+    top = log.max()
+    spread = gaussian_filter1d(np.exp(log - top), sd / _STEP, mode="nearest")
+    return np.asarray(np.log(spread + 1e-300) + top)
+
+
+def _doubted(log: Array) -> Array:
+    """Log likelihood on a grid with the chance that it speaks of something else spread over it."""
+    own = np.exp(log - log.max())
+    return np.asarray(np.log((1 - _DOUBT) * own / own.sum() + _DOUBT / len(log)))
+
+
+def _hypotheses(total: Array) -> list[tuple[int, int]]:
+    """Ranges of indices around the peaks that stand apart, parted at the lowest value between."""
+    apart = round(_APART / _STEP)
+    peaks: list[int] = []
+    for k in np.argsort(-total):
+        if total[k] < total.max() + np.log(_LEAST_CHANCE) / _TEMPER:
+            break
+        if all(abs(k - other) >= apart for other in peaks):
+            peaks.append(int(k))
+    peaks.sort()
+    bounds = [0]
+    for one, other in pairwise(peaks):
+        bounds.append(one + int(np.argmin(total[one:other])))
+    bounds.append(len(total))
+    return list(pairwise(bounds))
+
+
+def _timed(
+    window: Window,
+    whole: Array,
+    height: tuple[Array, Array, Array],
+    shocks: list[tuple[str, Array]],
+    peak: float,
+) -> ContactTime:
+    """Let the indicators vote on the time within one hypothesis."""
+    near = (whole >= peak - _AROUND[0]) & (whole <= peak + _AROUND[1])
+    grid = whole[near]
+    indicators: list[Indicator] = [indicator(name, grid, log[near]) for name, log in shocks]
+    switches = switch_indicator("ground switches", main_switches(window), grid)
+    if switches is not None:
+        indicators.append(switches)
+    indicators.append(indicator("wheel height", grid, first_time_down(*height)[near]))
+    result = vote(grid, indicators)
+    return ContactTime(ContactKind.FIRST, result.time, result.sd, result)
 
 
 def is_nose_first(courses: Courses, geometry: Geometry, time: float) -> bool:
@@ -97,19 +212,13 @@ def nose_first(first: ContactTime) -> ContactTime:
     )
 
 
-def _trust(rise: Rise) -> float:
-    """How many standard deviations the wheels may be off the ground; a gust is a weak rise."""
-    return float(np.clip((rise.suddenness - 3.0) / 4.0, 0.4, 2.0))
-
-
 def _untied_height(
     window: Window, normal: Series, geometry: Geometry, guess: float
 ) -> tuple[Datum, tuple[Array, Array, Array]]:
     """Height of the main wheels around a guess, from a smoothing that knows of no touch."""
-    check_gaps(window, guess)
     datum = normal_datum(normal, guess + SETTLING + 1.0)
     contact = ContactTime(ContactKind.FIRST, guess, 0.1, Vote(guess, 0.1, ()))
     courses = smooth_window(window, normal, geometry, [contact], datum, is_tied=False)
-    grid = np.arange(guess - 4.0, guess + 1.5, 0.02)
+    grid = np.arange(guess - _SOUGHT[0], guess + _SOUGHT[1], _STEP)
     height, sd = lowest_course(courses, geometry, geometry.mains, grid)
     return datum, (grid, height, np.hypot(sd, _HEIGHT_SD))

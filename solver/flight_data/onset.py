@@ -19,7 +19,10 @@ class Indicator:
 
 
 #: Time over which the load of a gear comes up: tyre first, then the preload of the strut [s].
-_RISES = (0.01, 0.02, 0.04, 0.07, 0.12)
+_RISES = (0.03, 0.06, 0.1, 0.15, 0.2)
+
+#: Parts of the time between the touches of two gears that are added to each.
+_DRAWN_OUT = (0.0, 0.3, 0.6, 0.8, 1.0)
 
 #: How far the true course of a shock leaves the template, per unit of its height.
 _MISFIT = 0.1
@@ -55,29 +58,22 @@ def ramp_response(time: Array, rise: Array | float, corner: float) -> Array:
 
 
 def rise_onset(
-    name: str,
-    series: Series,
-    grid: Array,
-    sign: float,
-    noise: float,
-    until: float,
-    slow: bool = False,
+    name: str, series: Series, grid: Array, noise: float, until: float, apart: float
 ) -> Indicator | None:
-    """Time at which a recorded quantity began to rise (sign +1) or to fall (sign -1).
+    """Time at which a quantity began to rise after it had been level or falling, as in a hop.
 
     Parameters
     ----------
     name : str
     series : Series
     grid : (n,) array
-        Times considered [s].
-    sign : float
+        Times considered; all after the top of the hop [s].
     noise : float
         Least scatter of the quantity before the shock, in its unit.
     until : float
         Later samples show the oleo's course and not the onset [s].
-    slow : bool
-        A soft touch may precede the shock: after a bounce the sink is low and one gear is first.
+    apart : float
+        Time between the touches of two gears, over which the rise is drawn out [s].
 
     Returns
     -------
@@ -86,21 +82,23 @@ def rise_onset(
     """
     # The filter smears, it does not shift: its response begins with the shock.
     time = series.time + series.lag
-    before = (time >= grid[0] - 1.2) & (time < grid[0])
+    before = np.flatnonzero(time < grid[0])[-_LEVEL_SAMPLES:]
     during = (time >= grid[0]) & (time <= max(until, grid[-1] + 2 * series.interval))
-    if before.sum() < 3 or during.sum() < 2:
+    if len(before) < _LEVEL_SAMPLES or during.sum() < 2:
         return None
-    level, moment = sign * series.value[before][-6:], time[before][-6:] - grid[0]
-    slope, _ = np.polyfit(moment, level, 1)
-    base = float(np.mean(level[-3:]) - slope * np.mean(moment[-3:]))
-    residual = level - slope * moment
-    scatter = float(np.hypot(np.std(residual) / 2, max(noise, series.sd)))
-    # A trend goes on for a moment: half of it is taken.
-    shown = sign * series.value[during] - base - slope / 2 * (time[during] - grid[0])
+    level, moment = series.value[before], time[before]
+    # Lift that falls goes on falling for a moment: half of it is taken.
+    slope = min(float(level[-1] - level[0]) / float(moment[-1] - moment[0]), 0.0) / 2
+    scatter = float(np.hypot(np.std(level) / 2, max(noise, series.sd)))
+    shown = series.value[during] - level[-1] - slope * (time[during] - moment[-1])
     height = float(shown.max())
     if height < 2.0 * scatter:
         return None
-    return _posterior(name, series, grid, time[during], shown, scatter, height, slow)
+    return _posterior(name, series, grid, time[during], shown, scatter, height, apart)
+
+
+#: Samples that show the level before a rise; a hop holds no more.
+_LEVEL_SAMPLES = 3
 
 
 def _posterior(
@@ -111,11 +109,11 @@ def _posterior(
     shown: Array,
     scatter: float,
     height: float,
-    slow: bool,
+    apart: float,
 ) -> Indicator:
     """Likelihood of each onset, averaged over rise times and heights."""
     since = time[None, None, :] - grid[:, None, None]
-    rises = np.array(_RISES)[None, :, None]
+    rises = np.array(_RISES)[None, :, None] + apart * np.array(_DRAWN_OUT)[None, :, None]
     response = ramp_response(since, rises, series.entry.corner.value)
     likelihoods = []
     for factor in _HEIGHTS:
@@ -128,10 +126,7 @@ def _posterior(
     # The rest of what the template leaves open grows with the time between samples.
     spread = float(np.hypot(series.entry.delay_scatter.value, _SPREAD * series.interval))
     log = blurred(log, grid, spread)
-    # The mean time by which the soft touch comes first; longer with fewer samples to show it.
-    return indicator(
-        name, grid, preceded(log, grid, 0.02 + 0.25 * series.interval) if slow else log
-    )
+    return indicator(name, grid, log)
 
 
 def blurred(log_likelihood: Array, grid: Array, sd: float) -> Array:
@@ -140,14 +135,6 @@ def blurred(log_likelihood: Array, grid: Array, sd: float) -> Array:
         return log_likelihood
     weight = np.exp(log_likelihood - log_likelihood.max())
     kernel = np.exp(-0.5 * ((grid[:, None] - grid[None, :]) / sd) ** 2)
-    return np.asarray(np.log(kernel @ weight + 1e-300))
-
-
-def preceded(log_likelihood: Array, grid: Array, mean: float) -> Array:
-    """Log likelihood of an event that comes before another by an exponentially distributed time."""
-    weight = np.exp(log_likelihood - log_likelihood.max())
-    earlier = grid[None, :] - grid[:, None]
-    kernel = np.where(earlier >= 0, np.exp(-np.maximum(earlier, 0.0) / mean), 0.0)
     return np.asarray(np.log(kernel @ weight + 1e-300))
 
 

@@ -1,6 +1,6 @@
 """The one public call: a window in, contacts with their states out, or why it cannot tell."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -65,7 +65,12 @@ def reconstruct(window: Window, geometry: Geometry) -> Reconstruction:
 
 
 def _reconstructed(window: Window, normal: Series, geometry: Geometry) -> Reconstruction:
-    first, datum = first_contact(window, normal, geometry)
+    hypotheses, datum = first_contact(window, normal, geometry)
+    first = hypotheses[0].contact
+    spread = sum(
+        each.chance * (each.contact.sd**2 + (each.contact.time - first.time) ** 2)
+        for each in hypotheses
+    )
     check_gaps(window, first.time)
     # The later contacts are timed by a height that is tied to the first one only: tied to
     # themselves they would bear themselves out.
@@ -76,9 +81,10 @@ def _reconstructed(window: Window, normal: Series, geometry: Geometry) -> Recons
     contacts = [first, *later_contacts(window, normal, courses, geometry, first)]
     if len(contacts) > 1:
         courses = smooth_window(window, normal, geometry, contacts, datum)
-    found = tuple(_found(contact, courses, geometry) for contact in contacts)
+    found = [_found(contact, courses, geometry) for contact in contacts]
+    found[0] = replace(found[0], time_sd=float(np.sqrt(spread)))
     notes = () if datum.found else ("no rolling in the window: normal acceleration not zeroed",)
-    return Reconstruction(found, (), courses, datum, notes)
+    return Reconstruction(tuple(found), (), courses, datum, notes)
 
 
 def _found(contact: ContactTime, courses: Courses, geometry: Geometry) -> FoundContact:

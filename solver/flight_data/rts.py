@@ -55,6 +55,25 @@ def smooth(system: LinearSystem) -> Smoothed:
     return Smoothed(mean, covariance, float(likelihood))
 
 
+def compile_smoother() -> None:
+    """Compile the smoother, or load it from the cache, before anybody waits for it."""
+    one = np.ones((1, 1, 1))
+    none, single = np.zeros(1), np.ones((1, 1))
+    smooth(
+        LinearSystem(
+            initial=none,
+            initial_covariance=single,
+            transition=one,
+            noise=one,
+            drive=single,
+            node=np.zeros(1, dtype=np.int64),
+            row=single,
+            measured=none,
+            variance=np.ones(1),
+        )
+    )
+
+
 @numba.njit(cache=True)
 def _smooth(
     initial: Array,

@@ -80,7 +80,7 @@ def smooth_window(
         Touch(c.time, c.sd, tuple(wheel.gear for wheel in touching_wheels(c.kind, geometry)))
         for c in contacts
         # The wheels that come down second are timed by the height: it must not be tied to them.
-        if is_tied and c.kind not in (ContactKind.DEROTATION, ContactKind.MAINS)
+        if is_tied and c.kind in (ContactKind.FIRST, ContactKind.NOSE_FIRST, ContactKind.BOUNCE)
     )
     rolling = last + SETTLING
     vertical = smooth_vertical(

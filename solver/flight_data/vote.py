@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import log_ndtr
 
 from solver.arrays import Array
 from solver.flight_data.alignment import Series
@@ -89,8 +90,42 @@ _LONGEST = 2.0
 _SOFT = 0.015
 
 
+def first_time_down(time: Array, height: Array, sd: Array) -> Array:
+    """Log likelihood of a wheel coming down to the runway for the first time, at each time.
+
+    The height is zero then, passes zero at its speed, and was not lower before.
+
+    Parameters
+    ----------
+    time : (n,) array
+        [s].
+    height, sd : (n,) array
+        Of the wheel above the runway, and its standard deviation [m].
+
+    Returns
+    -------
+    (n,) array
+    """
+    speed = np.maximum(-np.gradient(height, time), _LEAST_SPEED)
+    here = -0.5 * (height / sd) ** 2 - np.log(sd) + np.log(speed)
+    some = slice(None, None, 5)
+    passed = time[:, None] - time[None, some]
+    margin = (height[None, some] - height[:, None]) / (
+        _HEIGHT_DRIFT[0] + _HEIGHT_DRIFT[1] * np.maximum(passed, 0.0)
+    )
+    not_before = np.where(passed > 0, log_ndtr(margin), 0.0).min(axis=1)
+    return np.asarray(here + not_before)
+
+
+#: How far two smoothed heights are off each other, at once [m] and per time between them [m/s].
+_HEIGHT_DRIFT = (0.03, 0.06)
+
+#: Least speed at which a height is taken to pass zero [m/s].
+_LEAST_SPEED = 0.1
+
+
 def height_indicator(name: str, grid: Array, height: Array, sd: Array) -> Indicator | None:
-    """Weigh a smoothed wheel height: the contact is where it passes zero.
+    """Weigh a smoothed wheel height: the contact is where it passes zero at its speed.
 
     Parameters
     ----------
@@ -100,4 +135,5 @@ def height_indicator(name: str, grid: Array, height: Array, sd: Array) -> Indica
     """
     if not (height.min() < 3 * sd.max() and height.max() > -3 * sd.max()):
         return None
-    return indicator(name, grid, -0.5 * (height / sd) ** 2)
+    speed = np.maximum(-np.gradient(height, grid), _LEAST_SPEED)
+    return indicator(name, grid, -0.5 * (height / sd) ** 2 + np.log(speed))

@@ -6,6 +6,7 @@ from solver.arrays import Array
 from solver.flight_data.geometry import Geometry, Wheel
 from solver.flight_data.lever import rise
 from solver.flight_data.touchdown import Courses
+from solver.flight_data.vertical import SLOPE_SD
 from solver.frames import body_structural
 
 
@@ -34,10 +35,15 @@ def wheel_course(
     height = np.interp(time, vertical.time, vertical.height)
     variance = np.interp(time, vertical.time, vertical.covariance[:, 0, 0])
     total = height + rise(arm, courses.pitch.at(time), courses.roll.at(time))
-    # The touch has already tied the height to the wheels; a level's bias is in both and cancels,
-    # as long as the aircraft has not turned much.
     for course, lever in ((courses.pitch, arm[0]), (courses.roll, arm[1])):
         variance = variance + lever**2 * np.interp(time, course.time, course.covariance[:, 0, 0])
+    # The touch has tied the height to the main wheels: a bias of the pitch, and the slope of the
+    # runway in it, cancel but for what a wheel is ahead of them, and so does a delay but for how
+    # fast that turns.
+    before = max(float(main.position[0]) for main in geometry.mains) - float(wheel.position[0])
+    level = courses.pitch.bias_sd**2 + SLOPE_SD**2
+    turned = level + (courses.pitch.delay_sd * courses.pitch.rate_at(time)) ** 2
+    variance = variance + before**2 * turned
     return np.asarray(total), np.asarray(np.sqrt(variance))
 
 

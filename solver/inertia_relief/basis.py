@@ -14,13 +14,13 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, eigsh
 
 from solver.arrays import Array, BoolArray, IntArray
 from solver.errors import ModelError
 from solver.fe.inertia import combine
 from solver.inertia_relief.factor import factorise
 from solver.inertia_relief.free_body import FreeBody, free_body
+from solver.inertia_relief.lanczos import largest_modes
 from solver.inertia_relief.static import inertia_relief
 from solver.progress import Progress, silent
 
@@ -72,7 +72,7 @@ def mass_state(
 
 
 def elastic_modes(body: FreeBody, count: int) -> tuple[Array, Array]:
-    """Lowest elastic modes of a free body by shift-invert Lanczos iteration.
+    """Lowest elastic modes of a free body by shift-invert Lanczos iteration, see `largest_modes`.
 
     Returns
     -------
@@ -88,14 +88,9 @@ def elastic_modes(body: FreeBody, count: int) -> tuple[Array, Array]:
     size = body.stiffness.shape[0]
     wanted = min(count + 6, max(7, size // 2))
     shift = -((2 * np.pi * _SHIFT_FREQUENCY) ** 2)
-    factor = factorise(body.stiffness - shift * body.mass)
-    inverse = LinearOperator((size, size), matvec=factor.solve, dtype=np.float64)
-    start = np.random.default_rng(15).standard_normal(size)
-    values, shapes = eigsh(
-        body.stiffness, k=wanted, M=body.mass, sigma=shift, OPinv=inverse, v0=start
-    )
-    order = np.argsort(values)
-    values, shapes = values[order], shapes[:, order]
+    shifted = body.stiffness - shift * body.mass
+    inverse, shapes = largest_modes(factorise(shifted).solve, body.mass, wanted, shifted)
+    values = shift + 1.0 / inverse
     if np.any(np.abs(values[:6]) > _RIGID_SHARE * values[6]):
         raise ModelError(f"the structure is held: its sixth eigenvalue is {values[5]:.3g} rad2/s2")
     if values[6] < (2 * np.pi * 1e-2) ** 2:

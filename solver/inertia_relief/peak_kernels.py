@@ -157,7 +157,6 @@ def _gather(
     certain: float,
     likeliest: int,
     floor: float,
-    slack: float,
     samples: IntArray,
     estimates: Single,
     doubt: Single,
@@ -175,7 +174,7 @@ def _gather(
     """
     # first all samples, then all estimates: loops without surprises keep the processor busy
     count, done = 0, -1
-    limit = max(floor, certain * np.float32(slack))
+    limit = max(floor, certain)
     for i in range(begin, end):
         if bounds[i] <= limit:
             continue
@@ -195,23 +194,18 @@ def _gather(
     for c in range(0, count, 2):
         pair = _stress(shares, e, patterns, samples[c], samples[c + 1], points)
         estimates[c], estimates[c + 1] = pair[0], pair[1]
-    best = -1
     for c in range(count):
-        if estimates[c] - doubt[c] > certain:
-            certain, best = estimates[c] - doubt[c], c
-    limit = max(floor, certain * np.float32(slack))
-    if certain * np.float32(slack) <= floor:
-        best = -1
+        certain = max(certain, estimates[c] - doubt[c])
+    limit = max(floor, certain)
     for c in range(count):
-        # what others are held against is looked at itself
-        if c == best or (estimates[c] + doubt[c]) * _MARGIN > limit:
+        if (estimates[c] + doubt[c]) * _MARGIN > limit:
             t = samples[c]
             rest: Any = _rest(rest_norms, e, norms, t)
-            if c == best or (estimates[c] + rest) * _MARGIN > limit:
+            if (estimates[c] + rest) * _MARGIN > limit:
                 candidates[found], reach[found] = t, (estimates[c] + rest) * _MARGIN
                 if estimates[c] - rest >= certain:
                     certain, likeliest = estimates[c] - rest, found
-                    limit = max(floor, certain * np.float32(slack))
+                    limit = max(floor, certain)
                 found += 1
     return found, certain, likeliest, count
 
@@ -229,7 +223,6 @@ def gather_candidates(
     patterns: Single,
     knots: IntArray,
     floors: Single,
-    slack: float,
     starts: IntArray,
     candidates: IntArray,
     reach: Single,
@@ -259,8 +252,6 @@ def gather_candidates(
         At every sample.
     floors : (n,) array
         Stress of each element that is not looked for.
-    slack : float
-        Stress that exceeds what is found by less than this factor is not looked for either.
     starts : (n + 1,) array
         Filled with the place of each element's first candidate, which is the likeliest.
     candidates, reach : (n * (samples + knots),) arrays
@@ -302,7 +293,6 @@ def gather_candidates(
                 certain,
                 likeliest,
                 floors[e],
-                slack,
                 samples,
                 estimates,
                 doubt,
@@ -333,7 +323,6 @@ def evaluate_candidates(
     candidates: IntArray,
     reach: Single,
     floors: Single,
-    slack: float,
     stress: Array,
     sample: IntArray,
 ) -> int:  # pragma: no cover - compiled
@@ -349,7 +338,7 @@ def evaluate_candidates(
         Those of the n that there are candidates of.
     starts, candidates, reach : arrays
         See `gather_candidates`.
-    floors, slack : (k,) array, float
+    floors : (k,) array
         See `gather_candidates`.
     coordinates : (n + 1, m) array
         At every sample.
@@ -366,7 +355,7 @@ def evaluate_candidates(
         evaluated += 1
         waiting = -1
         for c in range(starts[k] + 1, starts[k + 1]):
-            if reach[c] <= max(floors[k], best * np.float32(slack)):
+            if reach[c] <= max(floors[k], best):
                 continue
             if waiting < 0:
                 waiting = candidates[c]

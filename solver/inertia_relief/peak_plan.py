@@ -40,6 +40,21 @@ class SearchPlan:
     norms: Single
     largest: Single  #: (2 * groups, ni) of those within an interval, both ends included
 
+    def window(self, begin: int, end: int) -> "SearchPlan":
+        """Return the plan of the intervals from ``begin`` before ``end`` alone."""
+        samples = slice(int(self.knots[begin]), int(self.knots[end]) + 1)
+        support = self.support[samples]
+        first, last = int(support[0]), int(support[-1]) + self.weights.shape[1]
+        return SearchPlan(
+            coordinates=self.coordinates[samples],
+            at_grid=self.at_grid[first:last],
+            support=support - first,
+            weights=self.weights[samples],
+            knots=self.knots[begin : end + 1] - samples.start,
+            norms=self.norms[samples],
+            largest=self.largest[:, begin:end],
+        )
+
 
 def plan_search(coordinates: Single) -> SearchPlan:
     """Prepare the search in a history (nt, m) of coordinates."""

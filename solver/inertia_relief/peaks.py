@@ -13,8 +13,7 @@ patterns p, so that A z = S p + (what the patterns leave out, bounded by groups 
 Elements that cannot exceed what the caller calls their floor are left out as early as a bound
 allows: all at once for the whole landing, interval by interval, or sample by sample.
 
-What is given is a stress of the exact rows at a sample, to the rounding of single precision; no
-other sample's is higher by more than the stated tolerance.
+The result is that of evaluating every sample, to the rounding of single precision.
 """
 
 from collections.abc import Sequence
@@ -32,8 +31,6 @@ from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.reduced_stress import BLOCK, PATTERN_GROUP, StressBlock, group_edges
 from solver.inertia_relief.response import ReducedResponse
 
-#: Share of its own peak that an element's stress may be below it.
-TOLERANCE = 5e-4
 #: Landings that go through a block of elements before the next one is read.
 LANDINGS_AT_ONCE = 16
 #: Covers the rounding of single precision in comparing a bound with a floor.
@@ -60,7 +57,6 @@ def find_peaks(
     model: ReducedModel,
     response: ReducedResponse,
     floor: ArrayLike = 0.0,
-    tolerance: float = TOLERANCE,
 ) -> StressPeaks:
     """Find the peak of every element over all samples of a response.
 
@@ -68,22 +64,19 @@ def find_peaks(
     ----------
     floor : float or (ne,) array
         Stress up to which nobody cares how high an element's peak is [Pa].
-    tolerance : float
-        A sample may be taken for the peak if no other's stress is higher by more than this share.
 
     Raises
     ------
     ModelError
-        Floors of another shape than the elements', or negative ones, or a negative tolerance.
+        Floors of another shape than the elements', or negative ones.
     """
-    return find_peaks_together(model, [response], floor, tolerance)[0]
+    return find_peaks_together(model, [response], floor)[0]
 
 
 def find_peaks_together(
     model: ReducedModel,
     responses: Sequence[ReducedResponse],
     floor: ArrayLike = 0.0,
-    tolerance: float = TOLERANCE,
 ) -> list[StressPeaks]:
     """Find the peaks of several landings, each as `find_peaks` does.
 
@@ -95,15 +88,13 @@ def find_peaks_together(
         raise ModelError(f"floor must be one stress or {count}, got shape {floors.shape}")
     if not np.all(floors >= 0.0):
         raise ModelError(f"floor must not be negative, got {floors.min():g} Pa")
-    if not tolerance >= 0.0:
-        raise ModelError(f"tolerance must not be negative, got {tolerance:g}")
     floors = np.ascontiguousarray(np.broadcast_to(floors, count))
     found: list[StressPeaks] = []
     # fresh pages for every block would cost as much as what is written on them
     room = _Room()
     for first in range(0, len(responses), LANDINGS_AT_ONCE):
         searches = [
-            _Search(model, response, floors, tolerance, room)
+            _Search(model, response, floors, room)
             for response in responses[first : first + LANDINGS_AT_ONCE]
         ]
         element = 0
@@ -123,12 +114,11 @@ class _Search:
         model: ReducedModel,
         response: ReducedResponse,
         floors: Array,
-        tolerance: float,
         room: "_Room",
     ) -> None:
         self._plan: SearchPlan = plan_search(response.coordinates.T / model.stress.scale)
         self._time = response.time
-        self._floors, self._slack = floors, 1.0 + tolerance
+        self._floors = floors
         self._single_floors = floors.astype(np.float32)
         self._room = room
         self._stress = np.zeros(len(floors))
@@ -143,36 +133,38 @@ class _Search:
     def look_at(self, block: StressBlock, first: int) -> None:
         """Find the peaks of a block whose first element is ``first``."""
         part = slice(first, first + len(block.rows))
-        floors = self._single_floors[part]
-        elements = np.arange(len(block.rows))
-        small = block
-        if floors.any():
-            elements = np.flatnonzero(~(self._ceilings(block) <= floors))
-            if len(elements) == 0:
+        elements, plan, small, start = np.arange(len(block.rows)), self._plan, block, 0
+        if self._single_floors[part].any():
+            possible = self._possible(block, self._single_floors[part])
+            if not possible.any():
                 return
-            if len(elements) < _WORTH_CUTTING * len(block.rows):
-                small, floors = block.compressed_part(elements), floors[elements]
-            else:
-                elements = np.arange(len(block.rows))
-        self._gather(small, floors)
+            intervals = np.flatnonzero(possible.any(axis=0))
+            start = int(plan.knots[intervals[0]])
+            plan = plan.window(int(intervals[0]), int(intervals[-1]) + 1)
+            some = np.flatnonzero(possible.any(axis=1))
+            if len(some) < _WORTH_CUTTING * len(block.rows):
+                elements, small = some, block.compressed_part(some)
+        floors = self._single_floors[part][elements]
+        self._gather(plan, small, floors)
+        sample = self._sample[part]
         self._evaluated += evaluate_candidates(
             block.rows,
             block.points,
             elements,
-            self._plan.coordinates,
+            plan.coordinates,
             self._starts,
             self._candidates,
             self._reach,
             floors,
-            self._slack,
             self._stress[part],
-            self._sample[part],
+            sample,
         )
+        sample[sample >= 0] += start
 
     def peaks(self) -> StressPeaks:
         """Return what was found in all blocks."""
         below = (self._stress <= self._floors) & (self._floors > 0.0)
-        sample = np.where(below, -1, np.minimum(self._sample, len(self._time) - 1))
+        sample = np.where(below, -1, np.clip(self._sample, 0, len(self._time) - 1))
         return StressPeaks(
             stress=np.where(below, self._floors, self._stress),
             sample=sample,
@@ -181,17 +173,18 @@ class _Search:
             evaluated=self._evaluated / max(1, len(self._stress) * len(self._time)),
         )
 
-    def _ceilings(self, block: StressBlock) -> Single:
-        """Bounds (n,) of the stress of each element at any sample."""
+    def _possible(self, block: StressBlock, floors: Single) -> BoolArray:
+        """Whether each element can exceed its floor in each interval, (n, ni)."""
         groups = block.rest_norms.shape[1] // 2
-        # what the patterns leave out and what they hold, of coordinates as far as they ever move
+        # what the patterns leave out and what they hold, of coordinates as far as they move there
         norms = block.rest_norms[:, :groups] + block.rest_norms[:, groups:]
-        bounds: Single = (norms @ self._plan.largest[:groups]).max(axis=1) * _MARGIN
-        return bounds
+        bounds = norms @ self._plan.largest[:groups] * _MARGIN
+        possible: BoolArray = ~(bounds <= floors[:, None])  # also if it is not a number
+        return possible
 
-    def _gather(self, block: StressBlock, floors: Single) -> None:
+    def _gather(self, plan: SearchPlan, block: StressBlock, floors: Single) -> None:
         """Gather samples that can be peaks of a block, see `gather_candidates`."""
-        plan, room = self._plan, self._room
+        room = self._room
         knots, intervals = len(plan.knots), len(plan.knots) - 1
         size, patterns = len(floors), block.shares.shape[1]
         edges = group_edges(patterns, PATTERN_GROUP)
@@ -229,7 +222,6 @@ class _Search:
             history,
             plan.knots,
             floors,
-            self._slack,
             self._starts,
             self._candidates,
             self._reach,

@@ -6,7 +6,7 @@ finding never lowers a verdict, and what cannot be told is UNDETERMINED, never N
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from solver.aircraft.definition import AircraftDefinition
 from solver.assessment import (
@@ -207,6 +207,8 @@ def _conditions(
                 ),
                 verdict=thresholds.nose_first,
             )
+        else:
+            yield from _struck_nose(thresholds.nose_closure_limit, positions, number, history)
         if abs(contact.roll) >= thresholds.roll_limit:
             yield Reason(
                 code="roll_at_contact",
@@ -228,14 +230,42 @@ def _conditions(
         )
 
 
-def _gaps(record: TouchdownRecord, histories: Sequence[LandingHistory]) -> Iterator[Reason]:
-    """Return what keeps the record, or its simulation, from carrying a verdict."""
+def _struck_nose(
+    limit: float, positions: Mapping[str, str], number: int, history: LandingHistory
+) -> Iterator[Reason]:
+    """Find a nose brought down fast: struts were damaged inside by loads below their limit."""
+    closures = [c.closure_speed for c in history.contacts if positions[c.gear] == "nose"]
+    if max(closures, default=0.0) >= limit:
+        yield Reason(
+            code="nose_struck",
+            text=(
+                f"contact {number}: the nose wheel came down at {max(closures):.2f} m/s, limit "
+                f"{limit:.2f}; inspect the nose gear, its attachment and the forward fuselage"
+            ),
+            verdict=Verdict.INSPECT,
+        )
+
+
+def record_gaps(record: TouchdownRecord) -> Iterator[Reason]:
+    """Return what keeps the record from carrying a verdict, whatever its simulation says."""
     if record.missing:
         yield Reason(
             code="record_incomplete",
             text="the record lacks " + "; ".join(record.missing),
             verdict=Verdict.UNDETERMINED,
         )
+    if record.unexplained:
+        yield Reason(
+            code="recorded_response_unexplained",
+            text="the stated uncertainties cannot explain what was recorded after the contact: "
+            + "; ".join(record.unexplained),
+            verdict=Verdict.UNDETERMINED,
+        )
+
+
+def _gaps(record: TouchdownRecord, histories: Sequence[LandingHistory]) -> Iterator[Reason]:
+    """Return what keeps the record, or its simulation, from carrying a verdict."""
+    yield from record_gaps(record)
     for number, history in enumerate(histories, 1):
         if history.outcome is Outcome.TIME_LIMIT and not history.contacts:
             yield Reason(

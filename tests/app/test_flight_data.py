@@ -1,5 +1,9 @@
 """Recorder windows posted: understood, turned into records, assessed like them."""
 
+import gzip
+import io
+import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import httpx2
@@ -10,6 +14,8 @@ from solver.aircraft.airframe import load_airframe
 from solver.flight_data.fleet import SyntheticLanding, synthetic_landing
 from solver.flight_data.frame_file import packaged_frame
 from solver.flight_data.geometry import aircraft_geometry
+from solver.flight_data.parameter import Parameter
+from solver.flight_data.window import Channel, Window
 from solver.flight_data.writing import long_form
 from tests.conftest import Service
 
@@ -24,6 +30,14 @@ def landing(aircraft_folder: Path) -> SyntheticLanding:
     return synthetic_landing(aircraft, aircraft_geometry(aircraft), packaged_frame(FRAME), 21)
 
 
+def zip_bomb() -> bytes:
+    """A thousand times its size once unpacked, which is the most that deflate does."""
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("window.csv", b"0" * 100_000_000)
+    return packed.getvalue()
+
+
 def post(service: Service, content: str | bytes, **query: str) -> httpx2.Response:
     return service.client.post(
         "/v1/flight-data",
@@ -31,6 +45,19 @@ def post(service: Service, content: str | bytes, **query: str) -> httpx2.Respons
         params={"aircraft": "mini", **query},
         headers={**service.key("alpha", "post"), "Content-Type": "text/csv"},
     )
+
+
+def exaggerated(window: Window) -> Window:
+    """Window whose normal acceleration shows three times what happened after the contact."""
+
+    def swung(channel: Channel) -> Channel:
+        if channel.parameter is not Parameter.NORMAL_ACCELERATION:
+            return channel
+        after = (channel.time > 0.0) & (channel.time < 1.0)
+        value = 1.0 + 3.0 * (channel.value - 1.0)
+        return replace(channel, value=np.where(after, value, channel.value))
+
+    return replace(window, channels=tuple(swung(channel) for channel in window.channels))
 
 
 class TestPost:
@@ -50,9 +77,40 @@ class TestPost:
         assert stored["tail"] == "T-7"
         assert stored["record"]["source"]["frame"] == FRAME
         given = stored["record"]["contacts"][0]
-        assert given["sink_rate"]["method"] == "smoother"
+        assert given["sink_rate"]["method"] == "smoother + response"
         # Pressed into the record with its own deviation, not with a default.
         assert stored["sd"]["contacts[0].sink_rate"] == pytest.approx(first["sink_rate_sd_m_s"])
+
+    def test_the_simulated_response_is_checked_against_the_recorded_one(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        answer = post(service, long_form(landing.window), frame=FRAME).json()
+        response = answer["contacts"][0]["response"]
+        assert response["is_explained"], response["summary"]
+        peak = response["peak"]
+        assert abs(peak["simulated_posterior_g"] - peak["recorded_g"]) < 0.1
+        sink = next(each for each in response["parameters"] if each["name"] == "sink_rate")
+        assert sink["unit"] == "m/s"
+        assert sink["posterior_sd"] < sink["prior_sd"]
+        assert sink["posterior"] == pytest.approx(answer["contacts"][0]["sink_rate_m_s"])
+        stored = service.get(answer["links"]["landing"]).json()["inputs"]
+        (uncertainty, *_) = stored["uncertainties"]
+        assert uncertainty["covariance"][0][0] == pytest.approx(sink["posterior_sd"] ** 2)
+
+    def test_a_response_that_cannot_be_explained_is_undetermined(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        text = long_form(exaggerated(landing.window))
+        answer = post(service, text, frame=FRAME).json()
+        first = answer["contacts"][0]
+        assert not first["response"]["is_explained"]
+        assert "cannot explain" in first["response_unused_because"]
+        service.work()
+        result = service.get(answer["links"]["assessment"]).json()["result"]
+        reasons = {reason["code"]: reason for reason in result["reasons"]}
+        assert "normal acceleration peaked at" in reasons["recorded_response_unexplained"]["text"]
+        assert reasons["recorded_response_unexplained"]["verdict"] == "UNDETERMINED"
+        assert result["verdict"] in ("UNDETERMINED", "HARD")
 
     def test_it_is_assessed_as_a_posted_record_is(
         self, service: Service, landing: SyntheticLanding
@@ -105,6 +163,48 @@ def test_a_window_of_one_sample_a_second_is_undetermined_and_says_why(service: S
     assert "falls between its samples" in text
 
 
+def transponder_trace() -> str:
+    """ADS-B as receivers give it: 25 ft, 64 ft/min (DO-260B), nothing for seconds on the ground."""
+    rows = ["t_s,baro_alt_ft,gs_kt,track_deg,vrate_fpm,on_ground"]
+    for t in np.arange(-60.0, 20.0, 2.5):
+        height = "" if t > 0 else f"{25 * round(12.0 * -t / 25)}"
+        speed = f"{64 * round(-700 / 64)}" if t < -4 else "0"
+        rows.append(f"{t},{height},{135 + min(-t, 0):.0f},84.3,{speed},{int(t > 6)}")
+    return "\n".join(rows) + "\n"
+
+
+def telephone_log() -> str:
+    """A telephone in the cabin: three axes of its own at 2 Hz, pressure and sound."""
+    rows = ["t_s,ax,ay,az,pressure_hpa,sound_db"]
+    rows += [f"{t},0.4,{0.1 * (t % 3)},9.{int(t) % 9},1008.2,71" for t in np.arange(0, 60, 0.5)]
+    return "\n".join(rows) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "reason", "settled_by"),
+    [
+        (transponder_trace(), "64 ft/min", "radio altitude, or inertial vertical speed"),
+        (telephone_log(), "normal acceleration is not recorded", "from the flight recorder"),
+    ],
+    ids=["transponder", "telephone"],
+)
+def test_what_cannot_carry_a_verdict_is_undetermined_and_says_what_would_settle_it(
+    content: str, reason: str, settled_by: str, service: Service
+) -> None:
+    response = post(service, content)
+    assert response.status_code == 202, response.text
+    answer = response.json()
+    assert answer["contacts"] == []
+    assert any(reason in each["reason"] for each in answer["cannot_tell"])
+    assert any(settled_by in each["settled_by"] for each in answer["cannot_tell"])
+    service.work()
+    result = service.get(answer["links"]["assessment"]).json()["result"]
+    assert result["verdict"] == "UNDETERMINED"
+    text = " ".join(each["text"] for each in result["reasons"])
+    assert reason in text
+    assert settled_by in text
+
+
 @pytest.mark.parametrize(
     ("content", "field", "allowed"),
     [
@@ -113,6 +213,9 @@ def test_a_window_of_one_sample_a_second_is_undetermined_and_says_why(service: S
         (b"t_s,param,value,unit\n0,VRTG \xb0,1,g\n", "line 2, byte", "UTF-8"),
         (b"PK\x03\x04....", "byte 0", "not packed"),
         (b"\x1f\x8b....", "byte 0", "not packed"),
+        (gzip.compress(b"0" * 100_000_000), "byte 0", "not packed"),
+        (zip_bomb(), "byte 0", "not packed"),
+        ("t_s,param,value,unit\n0,VRTG,1.0,g\n".encode("utf-16"), "byte 0", "UTF-8"),
         (b"a,b\n1,2\n", "line 1", "t_s"),
     ],
 )
@@ -137,3 +240,20 @@ def test_unknown_aircraft_and_frame_are_named(shared_service: Service) -> None:
 def test_a_window_that_is_too_large_is_refused(shared_service: Service) -> None:
     response = post(shared_service, b"0" * (2 * 2**20))
     assert response.status_code == 413
+    assert shared_service.get("/v1/landings").json()["items"] == []
+
+
+def test_ten_declared_gigabytes_are_refused_by_their_declaration(shared_service: Service) -> None:
+    response = shared_service.client.post(
+        "/v1/flight-data",
+        content=b"t_s,VRTG\n0,1\n",
+        params={"aircraft": "mini"},
+        headers={
+            **shared_service.key("alpha", "post"),
+            "Content-Type": "text/csv",
+            "Content-Length": str(10 * 2**30),
+        },
+    )
+    assert response.status_code == 413
+    assert response.headers["content-type"].startswith("application/problem+json")
+    assert shared_service.get("/v1/landings").json()["items"] == []

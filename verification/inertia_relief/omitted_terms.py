@@ -79,8 +79,8 @@ def without(loading: ReducedLoading, omission: Omission) -> ReducedLoading:
 
 
 def peaks_of(loading: ReducedLoading, loads: LandingLoads) -> StressPeaks:
-    """Peaks with the W terms iterated to `TOLERANCE`, and the highest sample of each element."""
-    return find_peaks(loading.model, landing_response(loading, loads, TOLERANCE), tolerance=0.0)
+    """Peaks with the W terms iterated to `TOLERANCE`."""
+    return find_peaks(loading.model, landing_response(loading, loads, TOLERANCE))
 
 
 def worth(loading: ReducedLoading, loads: LandingLoads, complete: StressPeaks) -> list[Worth]:

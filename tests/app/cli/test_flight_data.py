@@ -10,6 +10,8 @@ from typer import Typer
 from typer.testing import CliRunner
 
 from app.cli.flight_data import flight_data
+from app.config import Settings
+from solver.aircraft.airframe import load_airframe
 from solver.flight_data.fleet import synthetic_landing
 from solver.flight_data.frame_file import packaged_frame
 from solver.flight_data.geometry import aircraft_geometry
@@ -89,3 +91,34 @@ def test_unknown_aircraft_is_refused(window_file: Path) -> None:
     result = runner.invoke(command, [str(window_file), "--aircraft", "no-such"])
     assert result.exit_code == 2
     assert "no aircraft 'no-such'" in result.stderr
+
+
+def test_without_an_aircraft_no_response_is_compared_and_that_is_said(window_file: Path) -> None:
+    result = runner.invoke(command, [str(window_file), "--json"])
+    for response in json.loads(result.stdout)["responses"]:
+        assert response["compared"] is None
+        assert response["unused_because"] == "no --aircraft to simulate"
+
+
+@pytest.fixture
+def mini_window(
+    aircraft_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> list[str]:
+    """Arguments that show a window of the mini aircraft."""
+    settings = Settings(aircraft_dir=aircraft_folder)
+    monkeypatch.setattr("app.cli.flight_data.get_settings", lambda: settings)
+    airframe = load_airframe(aircraft_folder / "mini")
+    loading = airframe.loading_for(mass=None, fuel={}, payload={})
+    aircraft = airframe.landing_aircraft(loading.factors)
+    frame = packaged_frame("business-jet-16")
+    landing = synthetic_landing(aircraft, aircraft_geometry(aircraft), frame, 21)
+    path = tmp_path / "mini.csv"
+    path.write_text(long_form(landing.window), encoding="utf-8")
+    return [str(path), "--frame", "business-jet-16", "--aircraft", "mini"]
+
+
+def test_the_response_is_shown_before_and_after(mini_window: list[str]) -> None:
+    result = runner.invoke(command, mini_window)
+    assert result.exit_code == 0, result.output
+    assert "response to contact 1 (first): normal acceleration peaked at" in result.stdout
+    assert "Before and after the response" in result.stdout

@@ -286,14 +286,15 @@ def test_flight_without_a_landing_has_no_contact(window: Window, geometry: Geome
 def test_without_a_named_frame_the_errors_are_wider_and_still_right(
     fleet: Fleet, geometry: Geometry
 ) -> None:
-    squared = []
+    squared, wider = [], []
     for name, landing in fleet[3:40:5]:  # the business jet at 8 Hz
         assert name == "business-jet-8"
         known = reconstruct(landing.window, geometry).contacts[0]
         unknown = reconstruct(replace(landing.window, frame=None), geometry).contacts[0]
-        assert unknown.state.sink_rate.sd > known.state.sink_rate.sd
+        wider.append(unknown.state.sink_rate.sd / known.state.sink_rate.sd)
         error = unknown.state.sink_rate.value - landing.contact.sink_rate
         squared.append((error / unknown.state.sink_rate.sd) ** 2)
+    assert np.median(wider) > 1.05
     assert np.mean(squared) < 2.0
 
 

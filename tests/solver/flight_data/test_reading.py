@@ -1,6 +1,7 @@
 """Windows from files: forms, names, units, faults, and files that are no windows."""
 
 import gzip
+import tracemalloc
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -193,6 +194,31 @@ def test_packed_files_are_refused_before_anything_is_unpacked() -> None:
         read_window(gzip.compress(b"\0" * 10_000_000))
     with pytest.raises(FlightDataError, match="a zip file"):
         read_window(b"PK\x03\x04 and so on")
+
+
+def test_a_packed_bomb_is_refused_in_bounded_memory() -> None:
+    bomb = gzip.compress(b"\0" * 50_000_000)
+    tracemalloc.start()
+    try:
+        with pytest.raises(FlightDataError, match="a gzip file"):
+            read_window(bomb)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most < 2**20  # of the fifty million bytes within
+
+
+def test_endless_rows_are_refused_in_bounded_memory() -> None:
+    rows = b"t_s,VRTG\n" + b"0,1\n" * 2_000_000
+    tracemalloc.start()
+    try:
+        with pytest.raises(FlightDataError, match="more rows"):
+            read_window(rows, limits=Limits(rows=1000))
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    # The text and its lines, and nothing of the two million samples (32 bytes each at least).
+    assert most < 2_000_000 * 32
 
 
 def test_ten_gigabytes_are_refused_without_being_read(tmp_path: Path) -> None:

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from solver.flight_data.anti_alias import anti_aliased
-from solver.flight_data.onset import indicator, preceded, ramp_response
-from solver.flight_data.rts import LinearSystem, smooth
-from solver.flight_data.vote import vote
+from solver.flight_data.onset import indicator, ramp_response
+from solver.flight_data.reconstruction import reconstruct
+from solver.flight_data.rts import LinearSystem, _smooth, compile_smoother, smooth
+from solver.flight_data.vote import first_time_down, vote
 
 
 def random_walk(measured: np.ndarray, variance: float, noise: float) -> LinearSystem:
@@ -36,6 +37,12 @@ def test_smoother_solves_the_least_squares_problem_of_all_nodes() -> None:
     covariance = np.linalg.inv(precision)
     np.testing.assert_allclose(result.mean[:, 0], covariance @ (measured / 0.5), atol=1e-12)
     np.testing.assert_allclose(result.covariance[:, 0, 0], np.diag(covariance), atol=1e-12)
+
+
+def test_a_window_is_smoothed_by_what_the_warm_up_compiled(window, geometry) -> None:
+    compile_smoother()
+    reconstruct(window, geometry)
+    assert len(_smooth.nopython_signatures) == 1
 
 
 def test_likelihood_is_that_of_the_joint_normal_distribution() -> None:
@@ -92,9 +99,20 @@ def test_a_wrong_indicator_is_outvoted() -> None:
     assert [ballot.agrees for ballot in result.ballots] == [True, True, False]
 
 
-def test_event_before_another_has_its_mean_lead() -> None:
-    grid = np.arange(-1.0, 1.0, 0.005)
-    log = preceded(normal(grid, 0.2, 0.02), grid, 0.05)
+def test_wheel_that_comes_down_evenly_is_timed_by_its_height_over_its_speed() -> None:
+    # Closed form: height -v t with deviation s passes zero at 0 with deviation s / v.
+    grid = np.arange(-2.0, 2.0, 0.01)
+    log = first_time_down(grid, -0.5 * grid, np.full(len(grid), 0.1))
     result = indicator("x", grid, log)
-    assert result.time == pytest.approx(0.15, abs=5e-3)
-    assert result.sd == pytest.approx(np.hypot(0.02, 0.05), rel=0.05)
+    assert result.time == pytest.approx(0.0, abs=1e-3)
+    assert result.sd == pytest.approx(0.2, rel=0.02)
+
+
+def test_wheel_that_was_lower_before_does_not_come_down_for_the_first_time() -> None:
+    # Five centimetres under the runway at -0.5 s, up to a metre, and down again at 0.5 s.
+    grid = np.arange(-1.0, 1.0, 0.01)
+    height = 0.5 * np.cos(2 * np.pi * grid) + 0.45
+    log = first_time_down(grid, height, np.full(len(grid), 0.1))
+    here, again = np.abs(grid + 0.6).argmin(), np.abs(grid - 0.4).argmin()
+    assert height[here] == pytest.approx(height[again], abs=1e-9)
+    assert log[here] > log[again] + 1.0

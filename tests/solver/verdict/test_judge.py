@@ -72,7 +72,11 @@ def load(gear: str = "main_left", **changes: float) -> GearLoad:
     return GearLoad(gear=gear, contact=0, bounces=0, **(values | changes))
 
 
-def history(*touched: tuple[str, float], outcome: Outcome = Outcome.SETTLED) -> LandingHistory:
+def history(
+    *touched: tuple[str, float],
+    outcome: Outcome = Outcome.SETTLED,
+    closure_speed: float = 1.0,
+) -> LandingHistory:
     """A landing that is nothing but its ground contacts (gear, start)."""
     empty = np.zeros(1)
     account = dataclasses.fields(EnergyAccount)
@@ -80,7 +84,8 @@ def history(*touched: tuple[str, float], outcome: Outcome = Outcome.SETTLED) -> 
         **{f.name: empty for f in account[:-2]}, impact_energy=1.0, closure_error=0.0
     )
     stays = tuple(
-        GroundContact(gear, start, None, 1e3, 0.1, 1e3, 0.1, 1.0) for gear, start in touched
+        GroundContact(gear, start, None, 1e3, 0.1, 1e3, 0.1, closure_speed)
+        for gear, start in touched
     )
     arrays = {f.name: empty for f in dataclasses.fields(LandingHistory)}
     return LandingHistory(
@@ -100,8 +105,14 @@ def verdict_of(
     loads: tuple[GearLoad, ...] = (),
     mass: float = 11_000.0,
     missing: tuple[str, ...] = (),
+    unexplained: tuple[str, ...] = (),
 ) -> tuple[Verdict, set[str]]:
-    record = TouchdownRecord(aircraft=definition.name, contacts=(contact,), missing=missing)
+    record = TouchdownRecord(
+        aircraft=definition.name,
+        contacts=(contact,),
+        missing=missing,
+        unexplained=unexplained,
+    )
     reasons = judge(definition, record, mass, [landing], loads, spot(utilisation))
     return severest(reasons), {reason.code for reason in reasons}
 
@@ -184,6 +195,21 @@ class TestContactConditions:
         landing = history(("main_left", 0.0), ("nose", 0.2), ("main_left", 0.6))
         assert "nose_first" not in verdict_of(definition, landing=landing)[1]
 
+    def test_a_nose_brought_down_fast_is_inspected_and_a_main_gear_is_not(
+        self, definition: AircraftDefinition
+    ) -> None:
+        limit = definition.verdict.nose_closure_limit
+        touched = (("main_left", 0.0), ("main_right", 0.0), ("nose", 0.3))
+        for count, closure_speed, expected in (
+            (3, limit, Verdict.INSPECT),
+            (3, limit - 1e-9, Verdict.NORMAL),
+            (2, limit, Verdict.NORMAL),
+        ):
+            landing = history(*touched[:count], closure_speed=closure_speed)
+            verdict, codes = verdict_of(definition, landing=landing)
+            assert verdict is expected
+            assert ("nose_struck" in codes) is (expected is Verdict.INSPECT)
+
     @pytest.mark.parametrize("side", [1.0, -1.0])
     def test_roll_at_the_limit_is_inspected_on_either_side(
         self, definition: AircraftDefinition, side: float
@@ -200,6 +226,13 @@ class TestWhatCannotBeTold:
         verdict, codes = verdict_of(definition, missing=("contacts[0].sink_rate",))
         assert verdict is Verdict.UNDETERMINED
         assert "record_incomplete" in codes
+
+    def test_a_recorded_response_that_does_not_fit_is_never_normal(
+        self, definition: AircraftDefinition
+    ) -> None:
+        verdict, codes = verdict_of(definition, unexplained=("contact 1: peaked at 2.2 g",))
+        assert verdict is Verdict.UNDETERMINED
+        assert "recorded_response_unexplained" in codes
 
     def test_what_is_known_to_be_hard_stays_hard(self, definition: AircraftDefinition) -> None:
         verdict, _ = verdict_of(definition, utilisation=1.2, missing=("contacts[1].pitch",))

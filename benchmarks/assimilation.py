@@ -1,0 +1,282 @@
+"""How much recorded responses improve the state of a contact, and which defects they give away.
+
+``python -m benchmarks.assimilation`` flies synthetic landings whose aircraft differs from the
+nominal one by the scatter of service, records each with one of the packaged frames in turn, and
+compares the state at the first contact before and after its response is looked at with the truth.
+For each frame it prints the errors of the sink rate and the normalised error squared of the whole
+state, then how the misfit of good recordings is distributed, and how often stated defects are
+found.  ``--figure`` draws one response and the misfits.
+"""
+
+import argparse
+import json
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from time import process_time
+
+import numpy as np
+
+from benchmarks.flight_data import FRAMES, example_aircraft
+from solver.arrays import Array
+from solver.assimilation.assimilate import ContactUpdate, assimilate
+from solver.assimilation.parameters import GAS_PRESSURE, contact_values
+from solver.assimilation.scattered_landing import scattered_landing
+from solver.flight_data.fleet import SyntheticLanding
+from solver.flight_data.frame_file import packaged_frame
+from solver.flight_data.geometry import aircraft_geometry
+from solver.flight_data.parameter import Parameter
+from solver.flight_data.reconstruction import Reconstruction, reconstruct
+from solver.flight_data.window import Window
+from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
+
+AIRCRAFT = example_aircraft()
+GEOMETRY = aircraft_geometry(AIRCRAFT)
+
+#: Sink rate from which a defect is worth finding [m/s].
+FIRM = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class Defect:
+    """Something wrong that the estimator does not know of."""
+
+    name: str
+    changes: dict[str, float] = field(default_factory=dict)  #: of the aircraft
+    gain: float = 1.0  #: of the normal acceleration about one g
+    later: float = 0.0  #: contact found so much later than it was [s]
+
+
+DEFECTS = (
+    Defect("one strut at 30 % gas pressure", {GAS_PRESSURE + "left": float(np.log(0.3))}),
+    Defect(
+        "both main struts at 30 % gas pressure",
+        {GAS_PRESSURE + gear: float(np.log(0.3)) for gear in ("left", "right")},
+    ),
+    Defect("normal acceleration 20 % too large", gain=1.2),
+    Defect("aircraft 20 % heavier than recorded", {"mass": float(np.log(1.2))}),
+    Defect("aircraft 20 % lighter than recorded", {"mass": float(np.log(0.8))}),
+    Defect("contact found 0.5 s late", later=0.5),
+    Defect("contact found 0.5 s early", later=-0.5),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Flown:
+    """One landing, and what became of its first contact."""
+
+    frame: str
+    landing: SyntheticLanding
+    update: ContactUpdate
+    seconds: float  #: processor time of the assimilation
+
+    @property
+    def truth(self) -> Array:
+        """State at the contact, (9,)."""
+        return contact_values(self.landing.contact)
+
+    @property
+    def errors(self) -> tuple[Array, Array]:
+        """Of the state before and after, (9,) each."""
+        before, after = (contact_values(c) for c in (self.update.prior, self.update.contact))
+        return before - self.truth, after - self.truth
+
+    @property
+    def normalised(self) -> tuple[float, float]:
+        """Squared errors over covariance and number of components."""
+        covariances = self.update.prior_uncertainty.matrix, self.update.uncertainty.matrix
+        before, after = (
+            float(error @ np.linalg.solve(covariance, error)) / len(error)
+            for error, covariance in zip(self.errors, covariances, strict=True)
+        )
+        return before, after
+
+
+def fly(number: int, seed: int, defect: Defect) -> Flown | None:
+    """Fly one landing; None if the window cannot tell or nothing could be compared."""
+    frame = FRAMES[number % len(FRAMES)]
+    landing = scattered_landing(
+        AIRCRAFT, GEOMETRY, packaged_frame(frame), seed + number, defects=defect.changes
+    ).landing
+    window = amplified(landing.window, defect.gain)
+    found = reconstruct(window, GEOMETRY)
+    if not found.contacts:
+        return None
+    begun = process_time()
+    (update, *_) = assimilate(window, misplaced(found, defect.later), AIRCRAFT, GEOMETRY).updates
+    seconds = process_time() - begun
+    return None if update.misfit is None else Flown(frame, landing, update, seconds)
+
+
+def amplified(window: Window, gain: float) -> Window:
+    """Window whose normal acceleration has a wrong gain."""
+    return replace(
+        window,
+        channels=tuple(
+            replace(channel, value=1.0 + gain * (channel.value - 1.0))
+            if channel.parameter is Parameter.NORMAL_ACCELERATION
+            else channel
+            for channel in window.channels
+        ),
+    )
+
+
+def misplaced(found: Reconstruction, later: float) -> Reconstruction:
+    """First contact alone, at another time [s]."""
+    first = found.contacts[0]
+    return replace(found, contacts=(replace(first, time=first.time + later),))
+
+
+def root_mean_square(values: list[float]) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def sink_table(flown: list[Flown]) -> list[dict[str, float | str]]:
+    """Sink rate and whole state before and after, for all frames and each."""
+    rows: list[dict[str, float | str]] = []
+    for name in ("all", *FRAMES):
+        those = [each for each in flown if name in ("all", each.frame) and each.update.is_corrected]
+        if not those:
+            continue
+        sink = [[float(e[0]) for e in each.errors] for each in those]
+        rows.append(
+            {
+                "frame": name,
+                "landings": len(those),
+                "sink_rms_before": root_mean_square([s[0] for s in sink]),
+                "sink_rms_after": root_mean_square([s[1] for s in sink]),
+                "squared_before": float(np.mean([each.normalised[0] for each in those])),
+                "squared_after": float(np.mean([each.normalised[1] for each in those])),
+            }
+        )
+    return rows
+
+
+def component_table(flown: list[Flown]) -> list[dict[str, float | str]]:
+    """Error, deviation and normalised error squared of each component, before and after."""
+    those = [each for each in flown if each.update.is_corrected]
+    rows: list[dict[str, float | str]] = []
+    for index, name in enumerate(CONTACT_COMPONENTS):
+        row: dict[str, float | str] = {"component": name}
+        for label, which, covariance in (
+            ("before", 0, lambda u: u.prior_uncertainty),
+            ("after", 1, lambda u: u.uncertainty),
+        ):
+            errors = np.array([each.errors[which][index] for each in those])
+            sds = np.array(
+                [np.sqrt(covariance(each.update).matrix[index, index]) for each in those]
+            )
+            row[f"rms_{label}"] = float(np.sqrt(np.mean(errors**2)))
+            row[f"sd_{label}"] = float(np.mean(sds))
+            row[f"squared_{label}"] = float(np.mean((errors / sds) ** 2))
+        rows.append(row)
+    return rows
+
+
+def misfits(flown: list[Flown]) -> dict[str, float]:
+    """How the misfit of good recordings is distributed."""
+    found = [each.update.misfit for each in flown if each.update.misfit is not None]
+    ratio = [m.chi_square / m.measurements for m in found]
+    probability = np.array([m.probability for m in found])
+    pulls = np.array([abs(m.strongest.pull) for m in found])
+    return {
+        "recordings": len(found),
+        "mean_chi_square_over_samples": float(np.mean(ratio)),
+        "share_below_0.05": float(np.mean(probability < 0.05)),
+        "share_below_0.01": float(np.mean(probability < 0.01)),
+        "least_probability": float(probability.min()),
+        "largest_pull": float(pulls.max()),
+        "median_largest_pull": float(np.median(pulls)),
+        "unexplained": sum(not m.is_explained for m in found),
+    }
+
+
+def defect_row(defect: Defect, count: int, seed: int) -> dict[str, float | str]:
+    """How often a defect is found, in all landings and in firm ones."""
+    flown = [each for k in range(count) if (each := fly(k, seed, defect)) is not None]
+    firm = [each for each in flown if each.landing.contact.sink_rate > FIRM]
+
+    def share(those: list[Flown]) -> float:
+        return float(np.mean([bool(each.update.unchanged_because) for each in those]))
+
+    return {
+        "defect": defect.name,
+        "landings": len(flown),
+        "found": share(flown),
+        "firm": len(firm),
+        "found_firm": share(firm) if firm else float("nan"),
+    }
+
+
+def draw(path: Path, flown: list[Flown]) -> None:
+    """Draw the misfits of all, and recorded against simulated peaks before and after."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    from matplotlib import pyplot as plt
+
+    found = [each.update.misfit for each in flown if each.update.misfit is not None]
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.0, 3.8), layout="constrained")
+    recorded = [m.peak.recorded for m in found]
+    ends = (1.0, max(recorded) + 0.1)
+    left.plot(ends, ends, color="0.7", linewidth=1.0)
+    left.plot(recorded, [m.peak.prior for m in found], "o", mfc="none", label="before the update")
+    left.plot(recorded, [m.peak.posterior for m in found], ".", label="after it")
+    left.set_xlabel("recorded peak normal acceleration [g]")
+    left.set_ylabel("simulated, sampled as recorded [g]")
+    left.legend(frameon=False)
+    uniform = (np.arange(len(found)) + 0.5) / len(found)
+    right.plot(uniform, uniform, color="0.7", linewidth=1.0)
+    right.plot(uniform, np.sort([m.probability for m in found]), drawstyle="steps-mid")
+    right.set_xlabel("share of good recordings")
+    right.set_ylabel("probability of a misfit as large")
+    figure.savefig(path)
+
+
+def show(title: str, rows: list[dict[str, float | str]]) -> None:
+    """Print a table."""
+    print(f"\n{title}")
+    widths = {key: max(len(key), 12) + 2 for key in rows[0]}
+    first = next(iter(widths))
+    widths[first] = max(len(str(row[first])) for row in rows) + 2
+    print("".join(f"{key:>{width}s}" for key, width in widths.items()))
+    for row in rows:
+        cells = {key: v if isinstance(v, str) else f"{v:.3g}" for key, v in row.items()}
+        print("".join(f"{cells[key]:>{width}s}" for key, width in widths.items()))
+
+
+def main() -> None:
+    """Fly and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--landings", type=int, default=200)
+    parser.add_argument("--defects", type=int, default=20, help="landings for each defect")
+    parser.add_argument("--first-seed", type=int, default=60_000)
+    parser.add_argument("--json", type=Path, help="write the figures here")
+    parser.add_argument("--figure", type=Path, help="draw peaks and misfits (SVG or PNG)")
+    given = parser.parse_args()
+    good = Defect("none")
+    flown = [
+        each for k in range(given.landings) if (each := fly(k, given.first_seed, good)) is not None
+    ]
+    document: dict[str, object] = {
+        "sink_rate": (sink := sink_table(flown)),
+        "components": (components := component_table(flown)),
+        "misfit": (misfit := misfits(flown)),
+        "seconds": float(np.mean([each.seconds for each in flown])),
+    }
+    show("sink rate [m/s] and normalised error squared of the state", sink)
+    show("components, SI", components)
+    print("\nmisfit of good recordings:", {k: round(v, 4) for k, v in misfit.items()})
+    print(f"processor time {document['seconds']:.2f} s a contact")
+    if given.figure is not None:
+        draw(given.figure, flown)
+    if given.defects:
+        rows = [defect_row(defect, given.defects, given.first_seed + 5_000) for defect in DEFECTS]
+        show(f"defects; firm means above {FIRM} m/s", rows)
+        document["defects"] = rows
+    if given.json is not None:
+        given.json.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

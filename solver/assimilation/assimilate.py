@@ -1,0 +1,219 @@
+"""The one public call: recorded responses correct what was believed of each contact."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solver.assimilation.contact_update import CorrectedContact, corrected
+from solver.assimilation.misfit import Misfit
+from solver.assimilation.model_error import ModelError
+from solver.assimilation.parameters import ServiceScatter, contact_with
+from solver.assimilation.samples import response_after
+from solver.assimilation.state import Believed
+from solver.flight_data.contacts import ContactKind
+from solver.flight_data.geometry import Geometry
+from solver.flight_data.parameter import Parameter
+from solver.flight_data.reconstruction import FoundContact, Reconstruction
+from solver.flight_data.window import Window
+from solver.landing.aircraft import LandingAircraft
+from solver.landing.contact import Contact
+from solver.landing.contact_uncertainty import CONTACT_COMPONENTS, ContactUncertainty
+
+#: How long after a contact its response is compared: the shock, and the first swing after it [s].
+SPAN = 0.8
+
+#: Before the next contact so soon nothing of a shock is in the samples [s].
+_SHORTEST = 0.25
+
+#: The simulation of the contact before brings these wheels down by itself.
+FOLLOWING = (ContactKind.DEROTATION, ContactKind.MAINS, ContactKind.ONE_GEAR)
+
+
+@dataclass(frozen=True, slots=True)
+class ContactUpdate:
+    """One contact before and after its response was looked at."""
+
+    found: FoundContact
+    prior: Contact
+    prior_uncertainty: ContactUncertainty
+    corrected: CorrectedContact | None  #: None: nothing could be compared
+    unchanged_because: str  #: why the state stays as it was; "" if it was corrected
+
+    @property
+    def misfit(self) -> Misfit | None:
+        """Of the response, None if nothing could be compared."""
+        return None if self.corrected is None else self.corrected.misfit
+
+    @property
+    def is_corrected(self) -> bool:
+        """Whether the state to go on with is the corrected one."""
+        return self.corrected is not None and not self.unchanged_because
+
+    @property
+    def contact(self) -> Contact:
+        """The state to go on with: corrected only by a response that can be explained."""
+        return self.corrected.contact if self.corrected and self.is_corrected else self.prior
+
+    @property
+    def uncertainty(self) -> ContactUncertainty:
+        """Of `contact`."""
+        if self.corrected and self.is_corrected:
+            return self.corrected.uncertainty
+        return self.prior_uncertainty
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """Standard deviation of each parameter by name, after the update; empty without one."""
+        parameters = () if self.corrected is None else self.corrected.parameters
+        return {parameter.name: parameter.posterior_sd for parameter in parameters}
+
+
+@dataclass(frozen=True, slots=True)
+class Assimilation:
+    """All contacts of a window, each with what its response tells."""
+
+    updates: tuple[ContactUpdate, ...]
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """State of each contact, in order."""
+        return tuple(update.contact for update in self.updates)
+
+    @property
+    def uncertainties(self) -> tuple[ContactUncertainty, ...]:
+        """Of each of `contacts`."""
+        return tuple(update.uncertainty for update in self.updates)
+
+    @property
+    def misfit(self) -> Misfit | None:
+        """The least probable one, None if nothing could be compared."""
+        found = [update.misfit for update in self.updates if update.misfit is not None]
+        return min(found, key=lambda misfit: misfit.probability, default=None)
+
+    @property
+    def unexplained(self) -> tuple[str, ...]:
+        """One sentence for each response that the stated uncertainties cannot explain."""
+        return tuple(
+            f"contact {number}: {update.misfit.text}"
+            for number, update in enumerate(self.updates, 1)
+            if update.misfit is not None and not update.misfit.is_explained
+        )
+
+
+def assimilate(
+    window: Window,
+    reconstruction: Reconstruction,
+    aircraft: LandingAircraft,
+    geometry: Geometry,
+    scatter: ServiceScatter | None = None,
+    model_error: ModelError | None = None,
+) -> Assimilation:
+    """Correct the contacts of a window by the responses that were recorded after them.
+
+    Parameters
+    ----------
+    window : Window
+    reconstruction : Reconstruction
+        Of that window: the contacts as they are known from before and around them.
+    aircraft : LandingAircraft
+        In the loading of the landing.
+    geometry : Geometry
+        As the reconstruction used it.
+    scatter : ServiceScatter, optional
+    model_error : ModelError, optional
+
+    Returns
+    -------
+    Assimilation
+        One update for each contact out of the air; the wheels that follow belong to it.
+    """
+    landed = _landed(reconstruction)
+    ends = [following.time for following in landed[1:]] + [np.inf]
+    return Assimilation(
+        tuple(
+            _updated(
+                window,
+                reconstruction,
+                found,
+                Believed(
+                    aircraft=aircraft,
+                    geometry=geometry,
+                    contact=contact_of(found, landed[0].time),
+                    covariance=found.state.covariance,
+                    instant_sd=found.time_sd,
+                    scatter=scatter or ServiceScatter(),
+                ),
+                min(SPAN, end - found.time),
+                model_error or ModelError(),
+            )
+            for found, end in zip(landed, ends, strict=True)
+        )
+    )
+
+
+def uncorrected(reconstruction: Reconstruction, why: str) -> Assimilation:
+    """Contacts as they are known without their responses; ``why`` nothing was compared."""
+    landed = _landed(reconstruction)
+    return Assimilation(
+        tuple(
+            ContactUpdate(found, contact_of(found, landed[0].time), _known(found), None, why)
+            for found in landed
+        )
+    )
+
+
+def _landed(reconstruction: Reconstruction) -> list[FoundContact]:
+    return [found for found in reconstruction.contacts if found.kind not in FOLLOWING]
+
+
+def _known(found: FoundContact) -> ContactUncertainty:
+    return ContactUncertainty.from_matrix(found.state.covariance)
+
+
+def contact_of(found: FoundContact, first_time: float) -> Contact:
+    """Contact as reconstructed, within the range that a contact may have."""
+    values = np.array([getattr(found.state, name).value for name in CONTACT_COMPONENTS])
+    return contact_with(Contact(0.0, 0.0, time=found.time - first_time), values)
+
+
+def _updated(
+    window: Window,
+    reconstruction: Reconstruction,
+    found: FoundContact,
+    believed: Believed,
+    span: float,
+    model_error: ModelError,
+) -> ContactUpdate:
+    answer, why = _answer(window, reconstruction, found, believed, span, model_error)
+    if answer is not None and not answer.misfit.is_explained:
+        why = "the stated uncertainties cannot explain the recorded response"
+    return ContactUpdate(found, believed.contact, _known(found), answer, why)
+
+
+def _answer(
+    window: Window,
+    reconstruction: Reconstruction,
+    found: FoundContact,
+    believed: Believed,
+    span: float,
+    model_error: ModelError,
+) -> tuple[CorrectedContact | None, str]:
+    """Corrected contact, or why there is none."""
+    if not np.all(np.isfinite(found.state.covariance)):
+        return None, "a part of its state is not known at all"
+    if span < _SHORTEST:
+        return None, f"the next contact follows after {span:.2f} s"
+    normal = window.first(Parameter.NORMAL_ACCELERATION)
+    interval = 1.0 / normal.rate if normal is not None and normal.rate > 0 else np.inf
+    response = response_after(
+        window,
+        found.time,
+        interval + 2.0 * found.time_sd,
+        span,
+        reconstruction.datum,
+        model_error,
+    )
+    if response is None:
+        return None, "normal acceleration has no two samples after it"
+    answer = corrected(believed, response, span)
+    return answer, "" if answer is not None else "it cannot be simulated"

@@ -1,0 +1,140 @@
+"""Scores of a made-up fleet whose figures follow by counting."""
+
+import dataclasses
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from verification.judging.knowledge import compared_knowledge
+from verification.judging.methods import Answers
+from verification.judging.score import (
+    REPORTS_RIGHT,
+    felt_sink_rates,
+    report_threshold,
+    score_fleet,
+    truth_of,
+)
+
+PERFECT = Answers(
+    number=0,
+    kind="firm",
+    weight=1.0,
+    rate=8.0,
+    sink_rate=1.0,
+    utilisation=0.5,
+    load_factor_share=0.5,
+    is_over_load_factor=False,
+    sink_difference=1.0,
+    undetermined="",
+    contacts=1,
+    sink_estimate=1.0,
+    estimate=0.5,
+    is_held=False,
+    is_complete=True,
+    sink_corrected=1.0,
+    corrected=0.5,
+    probability=0.0,
+    with_true_state=0.5,
+    with_true_aircraft=0.5,
+)
+
+
+def landings(count: int = 40) -> Iterator[Answers]:
+    """Every second one hard, all methods right."""
+    for number in range(count):
+        used = 1.2 if number % 2 else 0.8
+        is_hard = used > 1.0
+        yield dataclasses.replace(
+            PERFECT,
+            number=number,
+            sink_rate=3.0 * used,
+            utilisation=used,
+            load_factor_share=used,
+            is_over_load_factor=is_hard,
+            sink_difference=3.048 * used,
+            estimate=used,
+            is_held=is_hard,
+            corrected=used,
+            probability=float(is_hard),
+            with_true_state=used,
+            with_true_aircraft=used,
+        )
+
+
+def test_right_answers_score_full_marks() -> None:
+    score = score_fleet(list(landings()), seed=1)
+    assert (score.landings, score.hard) == (40, 20)
+    assert score.hard_share.value == 0.5
+    for method in score.methods[1:]:
+        assert method.wrong_calls.value == 0.0
+        assert method.misses.value == 0.0
+        assert method.area == 1.0
+    assert score.calibration_flown is not None
+    assert score.calibration_flown.error == 0.0
+
+
+def test_one_false_alarm_and_one_miss_are_counted_with_their_weights() -> None:
+    fleet = list(landings())
+    fleet[0] = dataclasses.replace(fleet[0], estimate=1.1, weight=2.0)
+    fleet[1] = dataclasses.replace(fleet[1], estimate=0.9, weight=3.0)
+    by_name = {each.name: each for each in score_fleet(fleet, seed=1).methods}
+    estimate = by_name["estimate"]
+    assert estimate.wrong_calls.value == pytest.approx(2.0 / (2.0 + 19.0))
+    assert estimate.false_alarms.value == pytest.approx(2.0 / (2.0 + 19.0))
+    assert estimate.misses.value == pytest.approx(3.0 / (3.0 + 19.0))
+    assert by_name["estimate after assimilation"].misses.value == 0.0
+
+
+def test_a_window_that_cannot_tell_is_inspected_and_never_missed() -> None:
+    fleet = list(landings())
+    silent = {
+        "estimate": None, "corrected": None, "probability": None, "is_held": True,
+        "is_complete": False, "with_true_state": None, "with_true_aircraft": None,
+    }  # fmt: skip
+    fleet[1] = dataclasses.replace(fleet[1], undetermined="no_radio_altitude", **silent)
+    score = score_fleet(fleet, seed=1)
+    assert score.undetermined.value == pytest.approx(1 / 40)
+    assert all(each.misses.value == 0.0 for each in score.methods[3:])
+
+
+def test_an_unexplained_response_is_inspected() -> None:
+    fleet = list(landings())
+    fleet[0] = dataclasses.replace(fleet[0], is_unexplained=True)
+    by_name = {each.name: each for each in score_fleet(fleet, seed=1).methods}
+    assert by_name["probability, INSPECT or more"].false_alarms.value == pytest.approx(1 / 20)
+    assert by_name["probability, HARD"].false_alarms.value == 0.0
+
+
+def test_crews_reports_are_as_often_right_as_the_maker_says() -> None:
+    """Calibrated: at the threshold one report in seven is right, or a little more."""
+    rng = np.random.default_rng(2)
+    fleet = [
+        dataclasses.replace(PERFECT, number=n, sink_rate=sink, utilisation=sink / 3.2)
+        for n, sink in enumerate(rng.gamma(4.0, 0.3, 20_000))
+    ]
+    hard, weights = truth_of(fleet)
+    felt = felt_sink_rates(fleet, 1)
+    reported = felt >= report_threshold(felt[:3000], hard[:3000], weights[:3000])
+    right = float((hard & reported)[:3000].sum() / reported[:3000].sum())
+    assert REPORTS_RIGHT <= right < 2.0 * REPORTS_RIGHT
+
+
+def test_knowledge_is_compared_recorder_by_recorder() -> None:
+    fleet = [dataclasses.replace(a, rate=(8.0, 16.0)[a.number // 2 % 2]) for a in landings()]
+    names = [each.name for each in compared_knowledge(fleet)]
+    assert names == [
+        "state by the smoother, 8 Hz",
+        "state by the smoother, 16 Hz",
+        "state after assimilation, 8 Hz",
+        "state after assimilation, 16 Hz",
+        "true state, aircraft as defined",
+        "state after assimilation, aircraft as it was",
+    ]
+
+
+def test_errors_are_relative_to_the_truth() -> None:
+    fleet = [dataclasses.replace(a, estimate=1.1 * a.utilisation) for a in landings()]
+    (smoother, *_) = compared_knowledge(fleet)
+    assert smoother.error_mean == pytest.approx(0.1)
+    assert smoother.error_sd == pytest.approx(0.0, abs=1e-12)

@@ -1,0 +1,1 @@
+"""The monitor's verdicts judged: published accidents, and a synthetic fleet with known truth."""
