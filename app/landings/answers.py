@@ -19,6 +19,9 @@ class LandingFilter(Strict):
     aircraft: Token | None = None
     tail: Token | None = None
     verdict: Verdict | None = None
+    action: Verdict | None = Field(
+        default=None, description="The stricter of the verdict and the maker's rule."
+    )
     state: State | None = None
     from_: UtcTime | None = Field(default=None, alias="from", description="Touchdown, inclusive.")
     to: UtcTime | None = Field(default=None, description="Touchdown, exclusive.")

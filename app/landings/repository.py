@@ -193,6 +193,8 @@ def _conditions(wanted: LandingFilter) -> list[Any]:
         conditions.append(Landing.tail == wanted.tail)
     if wanted.verdict is not None:
         conditions.append(VerdictRow.verdict == wanted.verdict)
+    if wanted.action is not None:
+        conditions.append(VerdictRow.action == wanted.action)
     if wanted.state is not None:
         conditions.append(AssessmentJob.state == wanted.state)
     if wanted.from_ is not None:

@@ -102,6 +102,10 @@ class TestService:
         assert kept, "an action that sends somebody to look keeps its pictures"
         listed = service.get("/v1/landings").json()["items"][0]
         assert (listed["verdict"], listed["action"]) == ("NORMAL", "INSPECT")
+        by_action = service.get("/v1/landings?action=INSPECT").json()["items"]
+        assert [item["id"] for item in by_action] == [listed["id"]]
+        assert service.get("/v1/landings?action=NORMAL").json()["items"] == []
+        assert service.get("/v1/landings?action=INSPECT&verdict=HARD").json()["items"] == []
 
     def test_the_stricter_stress_verdict_is_the_action(self, service: Service) -> None:
         """The definition inspects from 5 degrees of roll, the rule only lowers its limit there."""
