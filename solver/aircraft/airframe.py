@@ -48,7 +48,7 @@ class Airframe:
     allowables: Array  #: (ne,) limit allowable, von Mises [Pa]
     centroids: Array  #: (ne, 3) [m]
     content_hash: str  #: of definition and bulk data
-    mass_states: MassStates  #: tanks and bays, and what the aircraft weighs with them
+    mass_states: MassStates[LoadedGroup]  #: tanks and bays, and what the aircraft weighs with them
     ignored_parameters: tuple[str, ...]  #: PARAM cards of the bulk data passed over
 
     @property
@@ -202,7 +202,7 @@ def _loaded_groups(
     groups = []
     for group, masses in zip(definition.groups, loads, strict=True):
         inertia = point_mass_inertia(structure.transformation, structure.model.coordinates, masses)
-        groups.append(LoadedGroup(group, masses, inertia, MassMoments.of(inertia)))
+        groups.append(LoadedGroup(group, MassMoments.of(inertia), masses, inertia))
     return tuple(groups)
 
 

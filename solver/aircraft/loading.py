@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.aircraft.mass_states import LoadedGroup, MassStates
+from solver.aircraft.mass_states import MassStates, WeighedGroup
 from solver.arrays import Array, BoolArray
 from solver.errors import RecordError
 
@@ -27,7 +27,7 @@ class Loading:
 
 
 def fill_factors(
-    states: MassStates, fuel: Mapping[str, float], payload: Mapping[str, float]
+    states: MassStates[WeighedGroup], fuel: Mapping[str, float], payload: Mapping[str, float]
 ) -> Array:
     """Fill factors (n_groups,) of stated masses [kg]; defaults where nothing is stated.
 
@@ -41,7 +41,7 @@ def fill_factors(
 
 
 def find_loading(
-    states: MassStates,
+    states: MassStates[WeighedGroup],
     mass: float | None = None,
     centre_of_gravity: float | None = None,
     fuel: Mapping[str, float] | None = None,
@@ -99,7 +99,7 @@ def find_loading(
     )
 
 
-def stated_masses(groups: Sequence[LoadedGroup], masses: Mapping[str, float], field: str) -> Array:
+def stated_masses(groups: Sequence[WeighedGroup], masses: Mapping[str, float], field: str) -> Array:
     """Masses (n_groups,) [kg] that a record states, NaN where it says nothing.
 
     Raises
@@ -171,7 +171,9 @@ def balance(
     return masses
 
 
-def _stated(states: MassStates, fuel: Mapping[str, float], payload: Mapping[str, float]) -> Array:
+def _stated(
+    states: MassStates[WeighedGroup], fuel: Mapping[str, float], payload: Mapping[str, float]
+) -> Array:
     split = len(states.definition.tanks)
     return np.concatenate(
         [
@@ -182,7 +184,7 @@ def _stated(states: MassStates, fuel: Mapping[str, float], payload: Mapping[str,
 
 
 def _default_notes(
-    states: MassStates, free_tanks: BoolArray, free_bays: BoolArray, *, solved: bool
+    states: MassStates[WeighedGroup], free_tanks: BoolArray, free_bays: BoolArray, *, solved: bool
 ) -> list[str]:
     notes = []
     for kind, free in (("fuel", free_tanks), ("payload", free_bays)):
@@ -194,7 +196,7 @@ def _default_notes(
 
 
 def _meet_mass(
-    states: MassStates,
+    states: MassStates[WeighedGroup],
     mass: float,
     masses: Array,
     free_tanks: BoolArray,
@@ -222,7 +224,9 @@ def _meet_mass(
     return masses
 
 
-def _note_centre(states: MassStates, wanted: float, factors: Array, notes: list[str]) -> None:
+def _note_centre(
+    states: MassStates[WeighedGroup], wanted: float, factors: Array, notes: list[str]
+) -> None:
     found = float(states.gross(factors)[1][0])
     reference = states.definition.reference
     if abs(found - wanted) > 1e-3 * reference.mean_chord:

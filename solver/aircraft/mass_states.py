@@ -6,6 +6,7 @@ properties of any state follow at once.
 """
 
 from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -49,12 +50,10 @@ class MassMoments:
 
 
 @dataclass(frozen=True, slots=True)
-class LoadedGroup:
-    """A tank or payload bay of the airframe."""
+class WeighedGroup:
+    """A tank or payload bay as far as the weight of the aircraft goes."""
 
     definition: MassGroup
-    point_masses: PointMasses  #: of the full group
-    inertia: Inertia  #: of the full group
     moments: MassMoments  #: of the full group
 
     @property
@@ -69,12 +68,23 @@ class LoadedGroup:
 
 
 @dataclass(frozen=True, slots=True)
-class MassStates:
+class LoadedGroup(WeighedGroup):
+    """A tank or payload bay of the airframe."""
+
+    point_masses: PointMasses  #: of the full group
+    inertia: Inertia  #: of the full group
+
+
+Group = TypeVar("Group", bound=WeighedGroup, covariant=True)
+
+
+@dataclass(frozen=True, slots=True)
+class MassStates(Generic[Group]):
     """All loading states of one aircraft."""
 
     definition: AircraftDefinition
     empty: MassMoments  #: operating empty, without the unsprung masses
-    groups: tuple[LoadedGroup, ...]  #: tanks, then bays
+    groups: tuple[Group, ...]  #: tanks, then bays
 
     @property
     def capacities(self) -> Array:
