@@ -5,6 +5,7 @@ from typing import Any
 from sqlalchemy import Engine
 
 from app.config import Settings
+from app.fleet.envelopes import Envelopes
 from app.fleet.registry import AircraftRegistry
 from app.flight_data.answers import CannotTell, ContactFound, WindowAccepted, WindowNote
 from app.flight_data.intake import WindowIntake, take_in_window
@@ -19,6 +20,7 @@ def accept(
     engine: Engine,
     settings: Settings,
     registry: AircraftRegistry,
+    envelopes: Envelopes,
     principal: Principal,
     content: bytes,
     query: WindowQuery,
@@ -36,6 +38,7 @@ def accept(
         engine,
         settings,
         registry,
+        envelopes,
         principal,
         parse_record(intake.record),
         lane=query.lane,

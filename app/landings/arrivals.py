@@ -32,6 +32,7 @@ class Arrival:
     sd: dict[str, float]
     sd_defaulted: list[str]
     taken_as_zero: list[str]
+    provisional: dict[str, Any] | None = None  #: verdict; see `app.assessments.provisional`
 
 
 def fleet(registry: AircraftRegistry) -> Fleet:
