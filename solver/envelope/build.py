@@ -81,6 +81,7 @@ def build_envelope(
                     yield sample
 
         samples, surface = sample_rounds(domain, model.airframe, known, landings, solve)
+        error, compared = surface_error(domain, surface, samples)
         envelope = Envelope(
             basis=Basis(
                 content_hash=model.content_hash,
@@ -90,7 +91,8 @@ def build_envelope(
             ),
             domain=domain,
             surface=surface,
-            error=surface_error(domain, surface, samples),
+            error=error,
+            held_out=compared,
             mass_states=model.airframe.mass_states,
         )
         save_envelope(path, envelope)
@@ -98,36 +100,44 @@ def build_envelope(
     return envelope
 
 
-def surface_error(domain: Domain, surface: Surface, samples: Sequence[Sample]) -> SurfaceError:
+def surface_error(
+    domain: Domain, surface: Surface, samples: Sequence[Sample]
+) -> tuple[SurfaceError, Array]:
     """Compare the surface with the landings that were held out, where it is graded.
+
+    Returns
+    -------
+    SurfaceError
+    (n, 2) array
+        Utilisation expected and found of every landing compared.
 
     Raises
     ------
     ModelError
-        Too few of them could be simulated to tell.
+        Too few of them lie near the limits to tell.
     """
     out = [s for s in samples if s.is_solved and held_out([s.number])[0]]
-    if not out:
-        raise ModelError(f"none of {len(samples)} landings of the envelope could be compared")
+    enough = round(1.0 / (1.0 - COVERED_SHARE))
+    if len(out) < enough:
+        raise ModelError(f"{len(out)} landings are too few to compare an envelope with: {enough}")
     expected, stops = surface(domain.unit(np.array([s.coordinates for s in out])))
+    found = np.array([s.utilisations.max() for s in out])
     graded = (expected > GRADED[0]) & (expected < GRADED[1])
-    # A share of the landings can only be told from so many of them.
-    if graded.sum() < 1.0 / (1.0 - COVERED_SHARE):
+    if graded.sum() < enough:
         raise ModelError(
-            f"only {int(graded.sum())} held-out landings of the envelope lie between "
-            f"{GRADED[0]:g} and {GRADED[1]:g} of a limit, at least "
-            f"{int(1.0 / (1.0 - COVERED_SHARE))} are needed: ask for more landings"
+            f"{int(graded.sum())} of {len(out)} landings to compare with are expected to use "
+            f"{GRADED[0]:g} to {GRADED[1]:g} of a limit; {enough} are needed, so ask for more"
         )
-    largest = np.array([s.utilisations.max() for s in out])
-    relative = largest[graded] / expected[graded] - 1.0
-    found = np.array([s.stops.max() for s in out])[graded] / stops[graded] - 1.0
-    return SurfaceError(
+    relative = found[graded] / expected[graded] - 1.0
+    beyond = np.array([s.stops.max() for s in out])[graded] / stops[graded] - 1.0
+    error = SurfaceError(
         above=max(0.0, float(np.quantile(relative, COVERED_SHARE))),
         below=max(0.0, -float(np.quantile(relative, 1.0 - COVERED_SHARE))),
-        stops_above=max(0.0, float(np.quantile(found, COVERED_SHARE))),
+        stops_above=max(0.0, float(np.quantile(beyond, COVERED_SHARE))),
         root_mean_square=float(np.sqrt(np.mean(relative**2))),
         landings=int(graded.sum()),
     )
+    return error, np.column_stack([expected, found])
 
 
 def _cores() -> int:

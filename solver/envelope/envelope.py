@@ -68,6 +68,7 @@ class Envelope:
     domain: Domain
     surface: Surface
     error: SurfaceError
+    held_out: Array  #: (n, 2) utilisation expected and found, of landings that were not fitted
     mass_states: MassStates[WeighedGroup]
 
     def expected(self, coordinates: Array) -> Expected:

@@ -14,8 +14,8 @@ import numpy as np
 
 from solver.arrays import Array, BoolArray
 
-#: Every sixth landing is never fitted, only compared with.
-_HELD_OUT = 6
+#: Every fifth landing is never fitted, only compared with.
+_HELD_OUT = 5
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ about the thresholds.
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.stats import qmc
@@ -15,6 +16,7 @@ from solver.aircraft.airframe import Airframe
 from solver.aircraft.definition import AircraftDefinition
 from solver.arrays import Array
 from solver.assess import AssessmentModel, assess_landing
+from solver.assessment import TouchdownRecord
 from solver.envelope.domain import (
     COORDINATES,
     SINK_RATE,
@@ -27,9 +29,11 @@ from solver.envelope.domain import (
 from solver.envelope.outcome import outcome
 from solver.envelope.samples import Sample, held_out
 from solver.envelope.surface import Surface, fit
-from solver.errors import RecordError, SimulationDivergedError
+from solver.errors import ModelError, RecordError, SimulationDivergedError
+from solver.landing.contact import Lift
 
-ROUND = 240
+#: Landings of the first round; each later one is as large as all before it.
+FIRST_ROUND = 120
 
 #: Expected utilisations of the later rounds, evenly in their logarithm.
 _TARGETS = (0.4, 1.15)
@@ -70,22 +74,33 @@ def solve_one(model: AssessmentModel, number: int, coordinates: Array) -> Sample
 
 
 def find_domain(model: AssessmentModel) -> Domain:
-    """Box up to a sink rate that is far beyond the limits in the maximum landing mass."""
-    definition = model.airframe.definition
+    """Box up to a sink rate that is far beyond the limits in the maximum landing mass.
+
+    Raises
+    ------
+    ModelError
+        That landing cannot be simulated.
+    """
+    airframe = model.airframe
+    definition = airframe.definition
     sink_rate, factor, most = _HARDEST
     while True:
         domain = domain_of(definition, sink_rate)
-        middle = 0.5 * (domain.low + domain.high)
-        middle[SINK_RATE], middle[COORDINATES.index("roll")] = sink_rate, 0.0
-        middle[COORDINATES.index("mass")] = definition.masses.maximum_landing
-        middle[COORDINATES.index("lift_fraction")] = 1.0
-        middle[COORDINATES.index("fuel")] = 0.5 * (
-            definition.masses.maximum_landing - definition.masses.operating_empty
+        middle = record_at(definition, 0.5 * (domain.low + domain.high)).contacts[0]
+        record = TouchdownRecord(
+            definition.name,
+            (replace(middle, sink_rate=sink_rate, roll=0.0, lift=Lift(fraction=1.0)),),
+            mass=definition.masses.maximum_landing,
         )
-        sample = solve_one(model, -1, middle)
-        if not sample.is_solved or sample.utilisations.max() > _FAR_BEYOND:
-            return domain
-        if sink_rate * factor > most:
+        try:
+            assessment = assess_landing(model, record)
+        except (RecordError, SimulationDivergedError) as error:
+            raise ModelError(
+                f"a landing at {sink_rate:.2f} m/s in the maximum landing mass, of which the "
+                f"envelope is to be made: {error}"
+            ) from error
+        used = outcome(definition, airframe.element_zone, assessment).utilisations.max()
+        if used > _FAR_BEYOND or sink_rate * factor > most:
             return domain
         sink_rate *= factor
 
@@ -143,8 +158,10 @@ def sample_rounds(
     """Solve ``count`` landings in rounds; what is ``known`` already is not solved again."""
     samples = {sample.number: sample for sample in known if sample.number < count}
     stretch = _FIRST_STRETCH
-    for first in range(0, count, ROUND):
-        size = min(ROUND, count - first)
+    done = 0
+    while done < count:
+        first, size = done, min(max(done, FIRST_ROUND), count - done)
+        done += size
         missing = [k for k in range(first, first + size) if k not in samples]
         if not missing:
             continue
@@ -156,4 +173,4 @@ def sample_rounds(
         asked = [(number, landings[number - first]) for number in missing]
         samples.update({sample.number: sample for sample in solve(asked)})
     ordered = [samples[number] for number in range(count)]
-    return ordered, fitted(domain, ordered, stretch, sweeps=2)
+    return ordered, fitted(domain, ordered, stretch, sweeps=3)

@@ -7,6 +7,7 @@ import tempfile
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -50,6 +51,7 @@ def save_envelope(path: Path, envelope: Envelope) -> None:
                 places=surface.places,
                 utilisations=surface.utilisations,
                 stops=surface.stops,
+                held_out=envelope.held_out,
                 masses=np.array([part.mass for part in moments]),
                 first_moments=np.array([part.first for part in moments]),
                 second_moments=np.array([part.second for part in moments]),
@@ -71,10 +73,10 @@ def load_envelope(path: Path, definition: AircraftDefinition) -> Envelope | None
         Of the aircraft that the path was made for.
     """
     try:
-        with np.load(path, allow_pickle=False) as stored:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
             arrays = dict(stored)
-    except FileNotFoundError:
-        return None
+    except (OSError, ValueError, BadZipFile):
+        return None  # absent, or no file that `save_envelope` wrote
     head: dict[str, Any] = json.loads(str(arrays["head"]))
     moments = [
         MassMoments(float(mass), first, second)
@@ -89,6 +91,7 @@ def load_envelope(path: Path, definition: AircraftDefinition) -> Envelope | None
             arrays["stretch"], arrays["places"], arrays["utilisations"], arrays["stops"]
         ),
         error=SurfaceError(**head["error"]),
+        held_out=arrays["held_out"],
         mass_states=MassStates(
             definition,
             moments[0],

@@ -24,7 +24,7 @@ GRADED = (0.35, 1.3)
 #: Of the spline: residuals that it may leave, as landings are no smooth function to the last digit.
 _SMOOTHING = 0.03
 #: Stretches are searched by these steps, up and down, on at most so many landings, in these folds.
-_STEPS = (0.5, 0.7, 1.4, 2.0)
+_STEPS = (0.6, 1.6)
 _SEARCHED = 360
 _FOLDS = 4
 
