@@ -17,7 +17,7 @@ from solver.envelope.surface import Surface
 COVERED_SHARE = 0.975
 
 #: Sink rates at which an envelope is looked at between the ends of its range.
-_GRID = 49
+_GRID = 33
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +61,39 @@ class LimitSinkRate:
 
 
 @dataclass(frozen=True, slots=True)
+class Course:
+    """What landings use of their limits as the sink rate rises and all else stays.
+
+    It never falls: where one part is relieved by a harder contact (the nose wheel comes down
+    otherwise), what a softer one would use still counts.
+    """
+
+    sink_rates: Array  #: (q,) over the envelope's range [m/s]
+    used: Array  #: (q,) largest utilisation up to each
+    stops: Array  #: (q,) largest stop ratio up to each
+    error: SurfaceError
+
+    def expected(self, sink_rate: float) -> Expected:
+        """At a sink rate [m/s]; beyond either end of the range what holds there."""
+        utilisation = float(np.interp(sink_rate, self.sink_rates, self.used))
+        stops = float(np.interp(sink_rate, self.sink_rates, self.stops))
+        return Expected(
+            utilisation=utilisation,
+            low=utilisation * (1.0 - self.error.below),
+            high=utilisation * (1.0 + self.error.above),
+            stop_ratio=stops * (1.0 + self.error.stops_above),
+        )
+
+    def limit_sink_rate(self, utilisation: float = 1.0) -> LimitSinkRate:
+        """Where a utilisation is reached."""
+        return LimitSinkRate(
+            value=_crossing(self.sink_rates, self.used, utilisation),
+            low=_crossing(self.sink_rates, self.used * (1.0 + self.error.above), utilisation),
+            high=_crossing(self.sink_rates, self.used * (1.0 - self.error.below), utilisation),
+        )
+
+
+@dataclass(frozen=True, slots=True)
 class Envelope:
     """Everything an aircraft's landings need for a first answer."""
 
@@ -71,38 +104,18 @@ class Envelope:
     held_out: Array  #: (n, 2) utilisation expected and found, of landings that were not fitted
     mass_states: MassStates[WeighedGroup]
 
-    def expected(self, coordinates: Array) -> Expected:
-        """Largest use of the limits at coordinates (12,) and at any softer sink rate there.
+    def course(self, coordinates: Array) -> Course:
+        """Course through coordinates (12,), whatever their own sink rate."""
+        return Course(*rising(self.domain, self.surface, coordinates), self.error)
 
-        A rising sink rate never lowers it: where one part is relieved by a harder contact (the nose
-        wheel comes down otherwise), what a softer one would use still counts.
-        """
-        grid, used, stops = self._course(coordinates)
-        sink_rate = coordinates[SINK_RATE]
-        utilisation = float(np.interp(sink_rate, grid, used))
-        return Expected(
-            utilisation=utilisation,
-            low=utilisation * (1.0 - self.error.below),
-            high=utilisation * (1.0 + self.error.above),
-            stop_ratio=float(np.interp(sink_rate, grid, stops)) * (1.0 + self.error.stops_above),
-        )
 
-    def limit_sink_rate(self, coordinates: Array, utilisation: float = 1.0) -> LimitSinkRate:
-        """Sink rate at which landings at coordinates (12,) reach a utilisation."""
-        grid, used, _ = self._course(coordinates)
-        return LimitSinkRate(
-            value=_crossing(grid, used, utilisation),
-            low=_crossing(grid, used * (1.0 + self.error.above), utilisation),
-            high=_crossing(grid, used * (1.0 - self.error.below), utilisation),
-        )
-
-    def _course(self, coordinates: Array) -> tuple[Array, Array, Array]:
-        """Sink rates of the box and the largest utilisation and stop ratio up to each of them."""
-        grid = np.linspace(self.domain.low[SINK_RATE], self.domain.high[SINK_RATE], _GRID)
-        rows = np.tile(coordinates, (_GRID, 1))
-        rows[:, SINK_RATE] = grid
-        used, stops = self.surface(self.domain.unit(rows))
-        return grid, np.maximum.accumulate(used), np.maximum.accumulate(stops)
+def rising(domain: Domain, surface: Surface, coordinates: Array) -> tuple[Array, Array, Array]:
+    """Sink rates (q,) over the box, and the largest utilisation and stop ratio up to each."""
+    sink_rates = np.linspace(domain.low[SINK_RATE], domain.high[SINK_RATE], _GRID)
+    rows = np.tile(coordinates, (_GRID, 1))
+    rows[:, SINK_RATE] = sink_rates
+    used, stops = surface(domain.unit(rows))
+    return sink_rates, np.maximum.accumulate(used), np.maximum.accumulate(stops)
 
 
 def _crossing(grid: Array, used: Array, level: float) -> float:

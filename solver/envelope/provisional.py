@@ -94,7 +94,8 @@ def _contact(
         outside = uncovered(contact) or lopsided(domain, loading) or domain.outside(coordinates)
     if outside:
         return outside
-    expected = envelope.expected(coordinates)
+    course = envelope.course(coordinates)
+    expected = course.expected(contact.sink_rate)
     verdict = _verdict(envelope.mass_states.definition, contact.roll, loading.mass, expected)
     hardest = float(domain.high[SINK_RATE])
     if contact.sink_rate > hardest and verdict is not Verdict.HARD:
@@ -107,7 +108,7 @@ def _contact(
         verdict=verdict,
         sink_rate=contact.sink_rate,
         expected=expected,
-        limit_sink_rate=envelope.limit_sink_rate(coordinates),
+        limit_sink_rate=course.limit_sink_rate(),
     )
 
 

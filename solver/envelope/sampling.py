@@ -26,6 +26,7 @@ from solver.envelope.domain import (
     landings_at,
     record_at,
 )
+from solver.envelope.envelope import rising
 from solver.envelope.outcome import outcome
 from solver.envelope.samples import Sample, held_out
 from solver.envelope.surface import Surface, fit
@@ -44,10 +45,6 @@ _FAR_BEYOND = 1.5
 
 #: Stretches at the start of the search: sink rate, roll and lift matter most.
 _FIRST_STRETCH = np.array([2.0, 1.2, 0.4, 0.4, 0.4, 1.5, 0.3, 0.25, 0.25, 0.25, 0.25, 0.15])
-
-#: Sink rates at which a surface is looked at.
-GRID = 33
-
 
 #: Solves numbered landings, given by their coordinates, and yields them in any order.
 Solve = Callable[[Sequence[tuple[int, Array]]], Iterator[Sample]]
@@ -118,22 +115,9 @@ def next_landings(
     low, high = np.log(_TARGETS)
     target = np.exp(low + cube[:, SINK_RATE] * (high - low))
     for row, wanted in zip(landings, target, strict=True):
-        row[SINK_RATE] = first_crossing(*rising(domain, surface, row), wanted)
+        sink_rates, used, _ = rising(domain, surface, row)
+        row[SINK_RATE] = np.interp(wanted, used, sink_rates)
     return landings
-
-
-def rising(domain: Domain, surface: Surface, coordinates: Array) -> tuple[Array, Array]:
-    """Sink rates (q,) over the box, and the largest utilisation (q,) up to each of them."""
-    grid = np.linspace(domain.low[SINK_RATE], domain.high[SINK_RATE], GRID)
-    rows = np.tile(coordinates, (GRID, 1))
-    rows[:, SINK_RATE] = grid
-    used, _ = surface(domain.unit(rows))
-    return grid, np.maximum.accumulate(used)
-
-
-def first_crossing(grid: Array, used: Array, level: float) -> float:
-    """Sink rate at which a rising utilisation reaches a level; the nearer end if it does not."""
-    return float(np.interp(level, used, grid))
 
 
 def fitted(domain: Domain, samples: Sequence[Sample], stretch: Array, sweeps: int) -> Surface:

@@ -58,7 +58,7 @@ def limit_at(
         pitch=usual.pitch if pitch is None else pitch,
         lift=Lift(fraction=lift_fraction),
     )
-    return envelope.limit_sink_rate(coordinates_of(contact, loading), utilisation)
+    return envelope.course(coordinates_of(contact, loading)).limit_sink_rate(utilisation)
 
 
 def as_rows(limits: list[LimitSinkRate]) -> Array:

@@ -165,7 +165,7 @@ class TestStore:
         assert again is not None
         assert (again.basis, again.error) == (mini_envelope.basis, mini_envelope.error)
         place = 0.5 * (again.domain.low + again.domain.high)
-        assert again.expected(place) == mini_envelope.expected(place)
+        assert again.course(place).expected(2.0) == mini_envelope.course(place).expected(2.0)
         assert loading_at(again, 11_000.0).factors == pytest.approx(
             loading_at(mini_envelope, 11_000.0).factors
         )
