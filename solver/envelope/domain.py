@@ -58,7 +58,7 @@ _LATERAL_OFFSET = 0.005
 #: Share of a range by which a number may leave it and still be on its edge: units were converted.
 _ROUNDING = 1e-6
 
-#: Unit, its dimension's factor from SI and the words for what lies outside.
+#: Of each coordinate, to say what lies outside: words, unit, factor from SI.
 _SHOWN = {
     "sink_rate": ("sink rate", "m/s", 1.0),
     "roll": ("roll", "deg", 1.0 / _DEGREE),

@@ -149,6 +149,21 @@ class TestMaking:
         assert solved == []
         assert again.error == made.error
 
+    def test_processes_of_a_pool_solve_as_this_one_does(
+        self,
+        mini_folder: Path,
+        mini_cache: Path,
+        mini_model: AssessmentModel,
+        fresh: list[Sample],
+    ) -> None:
+        sample = fresh[0]
+        asked = [(7, sample.coordinates)]
+        (found,) = build._solved(mini_model, mini_folder, mini_cache, asked, processes=2)
+        (alone,) = build._solved(mini_model, mini_folder, mini_cache, asked, processes=1)
+        assert found.number == 7
+        assert found.utilisations == pytest.approx(alone.utilisations, rel=1e-12)
+        assert found.stops == pytest.approx(alone.stops, rel=1e-12)
+
     def test_two_processes_do_not_make_the_same(
         self, mini_folder: Path, mini_cache: Path, mini_model: AssessmentModel
     ) -> None:
