@@ -301,19 +301,10 @@ def show(title: str, rows: list[dict[str, float | str]]) -> None:
         print("".join(f"{cells[key]:>{width}s}" for key, width in widths.items()))
 
 
-def main() -> None:
-    """Fly and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--landings", type=int, default=200)
-    parser.add_argument("--defects", type=int, default=20, help="landings for each defect")
-    parser.add_argument("--first-seed", type=int, default=60_000)
-    parser.add_argument("--json", type=Path, help="write the figures here")
-    parser.add_argument("--figure", type=Path, help="draw peaks and misfits (SVG or PNG)")
-    given = parser.parse_args()
+def show_good(count: int, seed: int, figure: Path | None) -> dict[str, object]:
+    """Fly landings without a defect and print what became of them."""
     good = Defect("none")
-    flown = [
-        each for k in range(given.landings) if (each := fly(k, given.first_seed, good)) is not None
-    ]
+    flown = [each for k in range(count) if (each := fly(k, seed, good)) is not None]
     document: dict[str, object] = {
         "sink_rate": (sink := sink_table(flown)),
         "components": (components := component_table(flown)),
@@ -326,8 +317,23 @@ def main() -> None:
     print("\nmisfit of good recordings:", {k: round(v, 4) for k, v in misfit.items()})
     print("bounces:", {k: round(v, 4) for k, v in hops.items()})
     print(f"processor time {document['seconds']:.2f} s a contact")
-    if given.figure is not None:
-        draw(given.figure, flown)
+    if figure is not None:
+        draw(figure, flown)
+    return document
+
+
+def main() -> None:
+    """Fly and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--landings", type=int, default=200)
+    parser.add_argument("--defects", type=int, default=20, help="landings for each defect")
+    parser.add_argument("--first-seed", type=int, default=60_000)
+    parser.add_argument("--json", type=Path, help="write the figures here")
+    parser.add_argument("--figure", type=Path, help="draw peaks and misfits (SVG or PNG)")
+    given = parser.parse_args()
+    document: dict[str, object] = {}
+    if given.landings:
+        document |= show_good(given.landings, given.first_seed, given.figure)
     if given.defects:
         rows = [defect_row(defect, given.defects, given.first_seed + 5_000) for defect in DEFECTS]
         show(f"defects; firm means above {FIRM} m/s", rows)
