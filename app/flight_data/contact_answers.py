@@ -35,7 +35,9 @@ class EstimatedParameter(BaseModel):
     prior_sd: float
     posterior: float
     posterior_sd: float
-    pull: float = Field(description="Move over the scatter that it should have; beyond 4.5: no.")
+    pull: float = Field(
+        description="How far it moved over the scatter that such a move has by chance."
+    )
 
 
 class ResponseCompared(BaseModel):
