@@ -1,8 +1,8 @@
 """How the cost of a landing grows with the airframe (``make bench-scaling``).
 
 The same aircraft is meshed with every bay divided 1, 2 and 4 times in both directions.  What is
-built is kept below ``var/bench/scaling``; a run that is stopped goes on where it was.  Every size
-is measured in a process of its own, one thread, processor time.
+built is kept below ``var/bench/scaling``; a run that is stopped goes on with the size it was at.
+Each is measured in a process of its own, one thread, processor time.
 
 Resident memory is the largest that a process had while it assessed a landing: all of it, and
 without the mapped files.  Those pages are shared by all processes on a machine and dropped when it
