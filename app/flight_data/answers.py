@@ -12,6 +12,7 @@ class ContactFound(BaseModel):
     gear: str
     time_s: float = Field(description="On the window's clock.")
     time_sd_s: float
+    chance: float = Field(description="That there was such a contact.", ge=0, le=1)
     sink_rate_m_s: float = Field(description="Of the centre of gravity, downward.")
     sink_rate_sd_m_s: float
     gear_sink_rates_m_s: dict[str, float]

@@ -54,6 +54,7 @@ def _understood(intake: WindowIntake) -> dict[str, Any]:
                 gear=contact.gear,
                 time_s=contact.time,
                 time_sd_s=contact.time_sd,
+                chance=contact.chance,
                 sink_rate_m_s=contact.state.sink_rate.value,
                 sink_rate_sd_m_s=contact.state.sink_rate.sd,
                 gear_sink_rates_m_s={

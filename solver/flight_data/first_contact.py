@@ -48,7 +48,7 @@ _AROUND = (0.3, 0.25)
 
 #: Power of the likelihoods: those of models that are not quite right are too sure of themselves
 #: (tempering; P. D. Gruenwald, T. van Ommen, Bayesian Analysis 12 (2017) 1069).
-_TEMPER = 0.5
+_TEMPER = 0.45
 
 #: Less likely hypotheses are left out.
 _LEAST_CHANCE = 0.003

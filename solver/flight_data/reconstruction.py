@@ -28,6 +28,7 @@ class FoundContact:
     gear: str  #: whose wheels were lowest
     timing: ContactTime
     state: TouchdownState
+    chance: float = 1.0  #: that there was such a contact; a bounce may be none
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,4 +95,6 @@ def _found(contact: ContactTime, courses: Courses, geometry: Geometry) -> FoundC
         key=lambda wheel: float(wheel_course(courses, geometry, wheel, at)[0][0]),
     )
     state = touchdown_state(courses, geometry, contact.time, contact.sd)
-    return FoundContact(contact.kind, contact.time, contact.sd, lowest.gear, contact, state)
+    return FoundContact(
+        contact.kind, contact.time, contact.sd, lowest.gear, contact, state, contact.chance
+    )
