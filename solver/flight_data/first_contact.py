@@ -56,6 +56,9 @@ _LEAST_CHANCE = 0.003
 #: A guess farther off than this is made good and the height smoothed again [s].
 _ROUGH = 0.4
 
+#: Wheels that are so many standard deviations above the runway do not touch it.
+_OFF_GROUND = 4.0
+
 #: Before and after the guess in which the first contact is sought [s].
 _SOUGHT = (3.5, 2.0)
 
@@ -128,6 +131,9 @@ def _weighed(
             peak = float(grid[start + int(np.argmax(total[start:end]))])
             found.append(Hypothesis(_timed(window, grid, height, shocks, peak), chance))
     found.sort(key=lambda each: -each.chance)
+    likeliest = found[0].contact.time
+    if np.interp(likeliest, grid, height[1]) > _OFF_GROUND * np.interp(likeliest, grid, height[2]):
+        raise UndeterminedError(_NO_CONTACT)
     sum_of_chances = sum(each.chance for each in found)
     return tuple(replace(each, chance=each.chance / sum_of_chances) for each in found), datum
 
