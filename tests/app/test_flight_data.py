@@ -3,6 +3,7 @@
 import gzip
 import io
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import httpx2
@@ -13,6 +14,8 @@ from solver.aircraft.airframe import load_airframe
 from solver.flight_data.fleet import SyntheticLanding, synthetic_landing
 from solver.flight_data.frame_file import packaged_frame
 from solver.flight_data.geometry import aircraft_geometry
+from solver.flight_data.parameter import Parameter
+from solver.flight_data.window import Channel
 from solver.flight_data.writing import long_form
 from tests.conftest import Service
 
@@ -84,6 +87,27 @@ class TestPost:
         for axis, least in (("normal", 1.0), ("lateral", -1.0)):
             assert findings[f"{axis} load factor"]["value"] > least
             assert findings[f"{axis} load factor"]["status"] in ("passed", "exceeded")
+
+    def test_the_peak_of_a_nose_that_comes_down_late_belongs_to_the_last_contact(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        found = post(service, long_form(landing.window), frame=FRAME).json()["contacts"]
+        (nose,) = [c["time_s"] for c in found if c["kind"] == "derotation"]
+        landed = [c["time_s"] for c in found if c["kind"] in ("first", "bounce")]
+
+        def struck(channel: Channel) -> Channel:
+            if channel.parameter is not Parameter.NORMAL_ACCELERATION:
+                return channel
+            value = channel.value.copy()
+            value[np.argmin(np.abs(channel.time - (max(nose, landed[-1]) + 0.5)))] = 2.9
+            return replace(channel, value=value)
+
+        window = replace(landing.window, channels=tuple(map(struck, landing.window.channels)))
+        answer = post(service, long_form(window), frame=FRAME).json()
+        record = service.get(answer["links"]["landing"]).json()["record"]
+        peaks = [contact["nz_peak"]["value"] for contact in record["contacts"]]
+        assert peaks[-1] == pytest.approx(2.9)
+        assert max(peaks[:-1], default=0.0) < 2.9
 
     def test_the_same_file_is_the_same_landing(
         self, service: Service, landing: SyntheticLanding
