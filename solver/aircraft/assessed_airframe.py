@@ -77,6 +77,7 @@ class AssessedAirframe:
                 roll_damping_derivative=aero.roll_damping,
                 pitch_damping_derivative=aero.pitch_damping,
                 yaw_damping_derivative=aero.yaw_damping,
+                weathercock_derivative=aero.weathercock,
                 air_density=aero.air_density,
             ),
         )

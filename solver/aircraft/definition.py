@@ -71,6 +71,7 @@ class AerodynamicDerivatives:
     pitch_damping: float  #: C_mq, per q c / (2 V)
     roll_damping: float  #: C_lp, per p b / (2 V)
     yaw_damping: float  #: C_nr, per r b / (2 V)
+    weathercock: float  #: C_n_beta, positive where sideslip turns the nose into the wind
 
 
 @dataclass(frozen=True, slots=True)

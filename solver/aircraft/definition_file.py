@@ -80,6 +80,8 @@ class AerodynamicsSection(Section):
     pitch_damping_per_rad: Derivative  #: C_mq, per q c / (2 V)
     roll_damping_per_rad: Derivative  #: C_lp, per p b / (2 V)
     yaw_damping_per_rad: Derivative  #: C_nr, per r b / (2 V)
+    #: C_n_beta, positive where sideslip turns the nose into the wind
+    weathercock_per_rad: Annotated[float, Field(ge=0, le=1)] = 0.0
     source: Text = "not stated"
 
 

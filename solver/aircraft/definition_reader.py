@@ -83,6 +83,7 @@ def _definition(checked: file.DefinitionFile) -> values.AircraftDefinition:
             pitch_damping=aero.pitch_damping_per_rad,
             roll_damping=aero.roll_damping_per_rad,
             yaw_damping=aero.yaw_damping_per_rad,
+            weathercock=aero.weathercock_per_rad,
         ),
         modal_damping_ratio=checked.structure.modal_damping_ratio,
         verdict=values.VerdictThresholds(

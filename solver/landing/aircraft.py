@@ -16,6 +16,9 @@ class Aerodynamics:
 
     With air density rho and speed V the drag is ``rho V^2 / 2 * drag_area`` against the velocity,
     and the damping moment about each body axis is ``-rho V * damping * rate``.  Zero by default.
+    Sideslip beta, the air coming from starboard, turns the nose into the wind with
+    ``rho V^2 / 2 * yaw_stiffness * beta``; without it a rolling aircraft with few loads on its
+    wheels is directionally unstable.
     The lift of the landing's input is that at the contact's angle of attack; a change of the angle
     adds ``rho V^2 / 2 * lift_slope_area`` per rad, which takes lift away as the sink is stopped and
     the nose comes down, and damps a bounce.
@@ -27,6 +30,7 @@ class Aerodynamics:
     roll_damping: float = 0.0  #: -C_lp S b^2 / 4 [m4]
     pitch_damping: float = 0.0  #: -C_mq S c^2 / 4 [m4]
     yaw_damping: float = 0.0  #: -C_nr S b^2 / 4 [m4]
+    yaw_stiffness: float = 0.0  #: C_n_beta S b, weathercock stability [m3/rad]
     air_density: float = 1.225  #: [kg/m3]
     lift_slope_area: float = 0.0  #: C_L_alpha S; 0: lift does not answer to the motion [m2/rad]
     lift_point: Array | None = None  #: (3,) structural axes [m]; None: whole aircraft's c.g.
@@ -49,10 +53,13 @@ class Aerodynamics:
         roll_damping_derivative: float = 0.0,
         pitch_damping_derivative: float = 0.0,
         yaw_damping_derivative: float = 0.0,
+        weathercock_derivative: float = 0.0,
         lift_slope: float = 0.0,
         air_density: float = 1.225,
     ) -> Self:
         """Make it from the usual derivatives per rad: C_lp, C_mq, C_nr, negative where they damp.
+
+        The weathercock derivative C_n_beta is positive where it turns the nose into the wind.
 
         The rates are made dimensionless with b/2V and c/2V, so that each moment is
         ``rho V^2 / 2 * S * b * C_lp * (p b / 2V)`` and so on (ISO 1151-2).
@@ -62,6 +69,7 @@ class Aerodynamics:
             roll_damping=-roll_damping_derivative * area * span**2 / 4,
             pitch_damping=-pitch_damping_derivative * area * chord**2 / 4,
             yaw_damping=-yaw_damping_derivative * area * span**2 / 4,
+            yaw_stiffness=weathercock_derivative * area * span,
             lift_slope_area=lift_slope * area,
             air_density=air_density,
         )

@@ -95,9 +95,10 @@ def angle_of_attack(velocity: Vector) -> float:
 def air_loads(
     airframe: Record, course_lift: float, velocity: Vector, rate: Vector, below: Vector
 ) -> tuple[Vector, Vector, Vector]:
-    """Lift [N], drag [N] and damping moment [N m], body axes.
+    """Lift [N], drag [N] and moment of damping and sideslip [N m], body axes.
 
     Lift and drag act at ``airframe.lift_point``; ``velocity`` is that point's (the air is at rest).
+    The sideslip is taken as v / V, as small as it is in a landing.
     """
     speed = math.sqrt(dot(velocity, velocity))
     lift = course_lift
@@ -108,9 +109,10 @@ def air_loads(
     drag = -0.5 * airframe.air_density * airframe.drag_area * speed
     factor = -airframe.air_density * speed
     damping = vector(airframe.damping)
+    weathercock = 0.5 * airframe.air_density * airframe.yaw_stiffness * speed * velocity[1]
     moment = (
         factor * damping[0] * rate[0],
         factor * damping[1] * rate[1],
-        factor * damping[2] * rate[2],
+        factor * damping[2] * rate[2] + weathercock,
     )
     return scaled(-lift, below), scaled(drag, velocity), moment

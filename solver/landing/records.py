@@ -87,6 +87,7 @@ AIRFRAME_RECORD = np.dtype(
         ("lift_slope_area", np.float64),
         ("contact_angle_of_attack", np.float64),  # at which the input's lift holds [rad]
         ("damping", np.float64, 3),  # about the body axes [m4]
+        ("yaw_stiffness", np.float64),  # [m3/rad]
     ]
 )
 
@@ -152,4 +153,5 @@ def airframe_record(aircraft: LandingAircraft) -> Record:
         aerodynamics.pitch_damping,
         aerodynamics.yaw_damping,
     )
+    record["yaw_stiffness"] = aerodynamics.yaw_stiffness
     return record

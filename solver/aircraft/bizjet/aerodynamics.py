@@ -1,4 +1,4 @@
-"""Damping of the example aircraft from its planforms, by strip theory.
+"""Damping and weathercock stability of the example aircraft from its planforms, by strip theory.
 
 Each strip of a surface sees the change of incidence that the rotation gives it and answers with
 the surface's lift slope; downwash lag, fuselage and nacelles are left out.
@@ -93,3 +93,10 @@ def damping() -> Damping:
     lever = FIN_CENTRE[0] - REFERENCE_CENTRE[0]
     yaw = -2 * TAIL_EFFICIENCY * fin_slope() * FIN_AREA * lever**2 / (area * span**2)
     return Damping(round(roll, 4), round(pitch, 3), round(yaw, 4))
+
+
+def weathercock() -> float:
+    """C_n_beta per rad about the reference centre of gravity: the fin's side force on its lever."""
+    lever = FIN_CENTRE[0] - REFERENCE_CENTRE[0]
+    side_force = TAIL_EFFICIENCY * fin_slope() * FIN_AREA
+    return round(side_force * lever / (dim.WING_AREA * dim.WING_SPAN), 4)

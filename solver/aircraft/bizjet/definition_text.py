@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from solver.aircraft.bizjet import dimensions as dim
 from solver.aircraft.bizjet import gears, loading
-from solver.aircraft.bizjet.aerodynamics import damping
+from solver.aircraft.bizjet.aerodynamics import damping, weathercock
 from solver.aircraft.bizjet.assembly import Parts
 from solver.aircraft.bizjet.catalogue import Catalogue
 from solver.aircraft.bizjet.families import FAMILY, MATERIALS
@@ -103,8 +103,9 @@ def _aerodynamics() -> list[str]:
         pitch_damping_per_rad=values.pitch,
         roll_damping_per_rad=values.roll,
         yaw_damping_per_rad=values.yaw,
-        source="damping: strip theory of wing, tailplane and fin (Etkin and Reid 1996, chapter 5); "
-        "drag with flaps and gears down: assumed",
+        weathercock_per_rad=weathercock(),
+        source="damping and weathercock: strip theory of wing, tailplane and fin (Etkin and Reid "
+        "1996, chapter 5); drag with flaps and gears down: assumed",
     )
 
 

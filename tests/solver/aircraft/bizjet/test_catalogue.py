@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from solver.aircraft.bizjet import dimensions as dim
-from solver.aircraft.bizjet.aerodynamics import damping, lift_slope
+from solver.aircraft.bizjet.aerodynamics import FIN_CENTRE, damping, lift_slope, weathercock
 from solver.aircraft.bizjet.catalogue import (
     Bay,
     Catalogue,
@@ -16,6 +16,7 @@ from solver.aircraft.bizjet.catalogue import (
     write_gauges,
 )
 from solver.aircraft.bizjet.families import FAMILIES, FAMILY, MATERIALS
+from solver.aircraft.bizjet.loading import REFERENCE_CENTRE
 
 STRINGER = FAMILY["wing stringers"]
 
@@ -86,3 +87,9 @@ def test_roll_damping_is_strip_theory_of_the_trapezoid() -> None:
     assert -1.0 < damping().roll < -0.3
     assert -30.0 < damping().pitch < -8.0
     assert -0.3 < damping().yaw < -0.03
+
+
+def test_yaw_damping_and_weathercock_stability_come_from_one_fin() -> None:
+    """Both are the fin's side force on its lever: C_nr = -2 (l / b) C_n_beta."""
+    lever = FIN_CENTRE[0] - REFERENCE_CENTRE[0]
+    assert damping().yaw == pytest.approx(-2 * lever / dim.WING_SPAN * weathercock(), abs=2e-4)
