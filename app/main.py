@@ -30,6 +30,7 @@ from app.landings.endpoints import router as landings
 from app.observe import Metrics, RequestObserver, configure_logging
 from app.sweeper import Sweeper
 from solver.flight_data.rts import compile_smoother
+from solver.landing.compilation import compile_kernels as compile_landing
 
 log = structlog.get_logger(__name__)
 
@@ -58,7 +59,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
+        # what a window's request runs; nobody should wait for a compiler
         compile_smoother()
+        compile_landing()
         try:
             remember_models(engine, registry)
         except SQLAlchemyError as error:

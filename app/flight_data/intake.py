@@ -2,6 +2,7 @@
 
 import hashlib
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -54,9 +55,12 @@ class WindowIntake:
 
 
 def take_in_window(
-    content: bytes, query: WindowQuery, aircraft: RegisteredAircraft
+    content: bytes, query: WindowQuery, aircraft: RegisteredAircraft, cache: Path
 ) -> WindowIntake:
-    """Read a window and reconstruct its contacts; raises `InvalidRecordError` saying where."""
+    """Read a window and reconstruct its contacts; raises `InvalidRecordError` saying where.
+
+    Below `cache` the workers keep what an assessment needs of each airframe.
+    """
     definition = aircraft.definition
     try:
         frame = packaged_frame(query.frame) if query.frame else None
@@ -70,7 +74,7 @@ def take_in_window(
         raise InvalidRecordError([fault]) from error
     geometry = definition_geometry(definition, window)
     found = reconstruct(window, geometry)
-    responses, notes = _responses(window, found, geometry, aircraft)
+    responses, notes = _responses(window, found, geometry, aircraft, cache)
     content_digest = hashlib.sha256(content).hexdigest()
     identity = f"{content_digest} {query.aircraft} {query.tail} {query.frame}"
     return WindowIntake(
@@ -84,13 +88,17 @@ def take_in_window(
 
 
 def _responses(
-    window: Window, found: Reconstruction, geometry: Geometry, aircraft: RegisteredAircraft
+    window: Window,
+    found: Reconstruction,
+    geometry: Geometry,
+    aircraft: RegisteredAircraft,
+    cache: Path,
 ) -> tuple[Assimilation, tuple[Note, ...]]:
     """Contacts corrected by the responses to them, if the aircraft can be simulated."""
     if not found.contacts:
         return Assimilation(()), ()
     try:
-        simulated = landing_aircraft(aircraft, recorded_mass(window))
+        simulated = landing_aircraft(aircraft, recorded_mass(window), cache)
     except SolverError as error:
         # A mass that no loading has is refused with the record, a broken mesh shows in its job.
         note = Note("response_not_compared", f"recorded responses are not compared: {error}")

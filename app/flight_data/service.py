@@ -35,7 +35,7 @@ def accept(
         known = ", ".join(a.definition.name for a in registry.all()) or "none yet"
         fault = FieldError("aircraft", query.aircraft, known, "no such aircraft definition")
         raise InvalidRecordError([fault])
-    intake = take_in_window(content, query, aircraft)
+    intake = take_in_window(content, query, aircraft, settings.cache_folder)
     accepted = landings.accept(
         engine,
         settings,
