@@ -24,7 +24,6 @@ from solver.assimilation.scattered_landing import scattered_landing
 from solver.flight_data.fleet import SyntheticLanding
 from solver.flight_data.frame_file import packaged_frame
 from solver.flight_data.geometry import aircraft_geometry
-from solver.flight_data.motion import velocity_at
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import Reconstruction, reconstruct
 from solver.flight_data.window import Window
@@ -33,9 +32,8 @@ from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
 AIRCRAFT = example_aircraft()
 GEOMETRY = aircraft_geometry(AIRCRAFT)
 
-#: A contact found so far from the true one is another one, and so is a bounce [s].
+#: A contact found so far from the true one is another one [s].
 LATE = 0.1
-BOUNCE = 0.2
 
 #: Sink rate from which a defect is worth finding [m/s].
 FIRM = 1.5
@@ -72,8 +70,7 @@ class Flown:
     frame: str
     landing: SyntheticLanding
     update: ContactUpdate
-    later: tuple[ContactUpdate, ...]  #: of the contacts after the first
-    seconds: float  #: processor time of the assimilation, a contact
+    seconds: float  #: processor time of the assimilation
 
     @property
     def truth(self) -> Array:
@@ -110,11 +107,9 @@ def fly(number: int, seed: int, defect: Defect) -> Flown | None:
     begun = process_time()
     if defect.later:
         found = misplaced(found, defect.later)
-    update, *later = assimilate(window, found, AIRCRAFT, GEOMETRY).updates
-    seconds = (process_time() - begun) / (1 + len(later))
-    if update.misfit is None:
-        return None
-    return Flown(frame, landing, update, tuple(later), seconds)
+    update, *_ = assimilate(window, found, AIRCRAFT, GEOMETRY).updates
+    seconds = process_time() - begun
+    return None if update.misfit is None else Flown(frame, landing, update, seconds)
 
 
 def amplified(window: Window, gain: float) -> Window:
@@ -209,41 +204,6 @@ def misfits(flown: list[Flown]) -> dict[str, float]:
     }
 
 
-def bounces(flown: list[Flown]) -> dict[str, float]:
-    """Sink rate at the bounces that were found where there was one."""
-    errors: list[tuple[float, float]] = []
-    squared: list[tuple[float, float]] = []
-    explained = unexplained = 0
-    for each in flown:
-        motion = each.landing.motion
-        down = velocity_at(motion, GEOMETRY.centre_of_gravity)[:, 2]
-        true_times = each.landing.main_contacts(GEOMETRY)[1:]
-        for update in each.later:
-            near = [time for time in true_times if abs(time - update.found.time) < BOUNCE]
-            if update.misfit is None or not near:
-                continue
-            explained += update.misfit.is_explained
-            unexplained += not update.misfit.is_explained
-            if not update.is_corrected:
-                continue
-            true = float(np.interp(near[0], motion.time, down))
-            pair = update.prior.sink_rate - true, update.contact.sink_rate - true
-            errors.append(pair)
-            variances = (
-                update.prior_uncertainty.matrix[0, 0],
-                update.uncertainty.matrix[0, 0],
-            )
-            squared.append((pair[0] ** 2 / variances[0], pair[1] ** 2 / variances[1]))
-    return {
-        "explained": explained,
-        "unexplained": unexplained,
-        "sink_rms_before": root_mean_square([error[0] for error in errors]),
-        "sink_rms_after": root_mean_square([error[1] for error in errors]),
-        "squared_before": float(np.mean([each[0] for each in squared])),
-        "squared_after": float(np.mean([each[1] for each in squared])),
-    }
-
-
 def defect_row(defect: Defect, count: int, seed: int) -> dict[str, float | str]:
     """How often a defect is found, in all landings and in firm ones."""
     flown = [each for k in range(count) if (each := fly(k, seed, defect)) is not None]
@@ -309,14 +269,12 @@ def show_good(count: int, seed: int, figure: Path | None) -> dict[str, object]:
         "sink_rate": (sink := sink_table(flown)),
         "components": (components := component_table(flown)),
         "misfit": (misfit := misfits(flown)),
-        "bounces": (hops := bounces(flown)),
         "seconds": float(np.mean([each.seconds for each in flown])),
     }
     show("sink rate [m/s] and normalised error squared of the state", sink)
     show("components, SI", components)
     print("\nmisfit of good recordings:", {k: round(v, 4) for k, v in misfit.items()})
-    print("bounces:", {k: round(v, 4) for k, v in hops.items()})
-    print(f"processor time {document['seconds']:.2f} s a contact")
+    print(f"processor time {document['seconds']:.2f} s a landing")
     if figure is not None:
         draw(figure, flown)
     return document

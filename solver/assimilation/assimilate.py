@@ -1,6 +1,6 @@
-"""The one public call: recorded responses correct what was believed of each contact."""
+"""The one public call: the recorded response corrects what was believed of the first contact."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,6 +24,12 @@ SPAN = 0.8
 
 #: Before the next contact so soon nothing of a shock is in the samples [s].
 _SHORTEST = 0.25
+
+#: Measured: two bounces in three would be called unexplained, and sink rates get worse.
+_BOUNCE = (
+    "only the first contact is: the simulation of a bounce begins with wheels at rest, struts "
+    "extended and the lift not yet decaying, which shows in its response"
+)
 
 #: The simulation of the contact before brings these wheels down by itself.
 FOLLOWING = (ContactKind.DEROTATION, ContactKind.MAINS, ContactKind.ONE_GEAR)
@@ -108,7 +114,7 @@ def assimilate(
     scatter: ServiceScatter | None = None,
     model_error: ModelError | None = None,
 ) -> Assimilation:
-    """Correct the contacts of a window by the responses that were recorded after them.
+    """Correct the first contact of a window by the response that was recorded after it.
 
     Parameters
     ----------
@@ -125,69 +131,51 @@ def assimilate(
     Returns
     -------
     Assimilation
-        One update for each contact out of the air; the wheels that follow belong to it.
+        One update for each contact out of the air; the wheels that follow belong to it.  Later
+        contacts keep their state and say why.
     """
-    landed = _landed(reconstruction)
-    ends = [following.time for following in landed[1:]] + [np.inf]
-    return Assimilation(
-        tuple(
-            _updated(
-                window,
-                reconstruction,
-                found,
-                Believed(
-                    aircraft=aircraft,
-                    geometry=geometry,
-                    contact=contact_of(found, landed[0].time),
-                    covariance=found.state.covariance,
-                    instant_sd=found.time_sd,
-                    scatter=scatter or ServiceScatter(),
-                ),
-                min(SPAN, end - found.time),
-                model_error or ModelError(),
-            )
-            for found, end in zip(landed, ends, strict=True)
-        )
+    updates = uncorrected(reconstruction, _BOUNCE).updates
+    if not updates:
+        return Assimilation(())
+    first, *later = updates
+    believed = Believed(
+        aircraft=aircraft,
+        geometry=geometry,
+        contact=first.prior,
+        covariance=first.found.state.covariance,
+        instant_sd=first.found.time_sd,
+        scatter=scatter or ServiceScatter(),
     )
+    span = min([SPAN, *(each.found.time - first.found.time for each in later)])
+    answer, why = _answer(
+        window, reconstruction, first.found, believed, span, model_error or ModelError()
+    )
+    if answer is not None and not answer.misfit.is_explained:
+        why = "the stated uncertainties cannot explain the recorded response"
+    return Assimilation((replace(first, corrected=answer, unchanged_because=why), *later))
 
 
 def uncorrected(reconstruction: Reconstruction, why: str) -> Assimilation:
     """Contacts as they are known without their responses; ``why`` nothing was compared."""
-    landed = _landed(reconstruction)
+    landed = [found for found in reconstruction.contacts if found.kind not in FOLLOWING]
     return Assimilation(
         tuple(
-            ContactUpdate(found, contact_of(found, landed[0].time), _known(found), None, why)
+            ContactUpdate(
+                found=found,
+                prior=contact_of(found, landed[0].time),
+                prior_uncertainty=ContactUncertainty.from_matrix(found.state.covariance),
+                corrected=None,
+                unchanged_because=why,
+            )
             for found in landed
         )
     )
-
-
-def _landed(reconstruction: Reconstruction) -> list[FoundContact]:
-    return [found for found in reconstruction.contacts if found.kind not in FOLLOWING]
-
-
-def _known(found: FoundContact) -> ContactUncertainty:
-    return ContactUncertainty.from_matrix(found.state.covariance)
 
 
 def contact_of(found: FoundContact, first_time: float) -> Contact:
     """Contact as reconstructed, within the range that a contact may have."""
     values = np.array([getattr(found.state, name).value for name in CONTACT_COMPONENTS])
     return contact_with(Contact(0.0, 0.0, time=found.time - first_time), values)
-
-
-def _updated(
-    window: Window,
-    reconstruction: Reconstruction,
-    found: FoundContact,
-    believed: Believed,
-    span: float,
-    model_error: ModelError,
-) -> ContactUpdate:
-    answer, why = _answer(window, reconstruction, found, believed, span, model_error)
-    if answer is not None and not answer.misfit.is_explained:
-        why = "the stated uncertainties cannot explain the recorded response"
-    return ContactUpdate(found, believed.contact, _known(found), answer, why)
 
 
 def _answer(

@@ -140,7 +140,9 @@ def test_a_contact_that_the_next_one_follows_at_once_is_left_alone(
     both = replace(given.reconstruction, contacts=(first, bounce))
     updates = assimilate(window, both, aircraft, geometry).updates
     assert "after 0.20 s" in updates[0].unchanged_because
+    assert "only the first contact" in updates[1].unchanged_because
     assert updates[1].contact.time == pytest.approx(0.2)
+    assert updates[1].misfit is None
 
 
 def test_wheels_that_follow_belong_to_the_contact_before(landings: list[Recovered]) -> None:
