@@ -52,6 +52,9 @@ class Settings(BaseSettings):
     sweep_interval: Annotated[float, Field(gt=0)] = 1.5
     nudge_window: Annotated[int, Field(ge=1)] = 4  #: most nudges that one sweep sends
 
+    #: `run` and `serve` make the envelopes that installed aircraft lack, when nobody else works.
+    makes_envelopes: bool = True
+
     worker_concurrency: Annotated[int, Field(ge=1)] = max(1, (os.cpu_count() or 2) - 1)
     worker_lanes: Annotated[tuple[str, ...], NoDecode] = ("interactive", "bulk")
 

@@ -8,6 +8,7 @@ from sqlalchemy import Engine
 
 from app.broker import Nudger
 from app.config import Settings
+from app.fleet.envelopes import Envelopes
 from app.fleet.registry import AircraftRegistry
 from app.observe import Metrics
 
@@ -17,6 +18,7 @@ class ServiceContext:
     settings: Settings
     engine: Engine
     registry: AircraftRegistry
+    envelopes: Envelopes
     nudger: Nudger
     metrics: Metrics
 

@@ -20,6 +20,7 @@ from app.config import Settings, get_settings
 from app.context import ServiceContext
 from app.db import make_engine
 from app.fleet.endpoints import router as fleet
+from app.fleet.envelopes import Envelopes
 from app.fleet.registry import AircraftRegistry
 from app.fleet.service import remember_models
 from app.flight_data.endpoints import router as flight_data
@@ -53,6 +54,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     metrics = Metrics(engine)
     nudger = Nudger(settings)
     registry = AircraftRegistry(settings.aircraft_folder)
+    envelopes = Envelopes(registry, settings.cache_folder)
 
     @asynccontextmanager
     async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
@@ -85,7 +87,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             ),
         ],
     )
-    app.state.context = ServiceContext(settings, engine, registry, nudger, metrics)
+    app.state.context = ServiceContext(settings, engine, registry, envelopes, nudger, metrics)
     for router in (landings, flight_data, assessments, fleet, health):
         app.include_router(router)
     errors.install(app)

@@ -18,6 +18,7 @@ from app.assessments.models import PENDING_CLAUSE, AssessmentJob, VerdictRow
 from app.assessments.states import PENDING
 from app.config import LANES
 from app.db import DatabaseTime, reading
+from app.landings.answers import LandingAccepted
 
 log = structlog.get_logger("app.requests")
 
@@ -76,6 +77,12 @@ class Metrics:
             ["outcome"],
             registry=self.registry,
         )
+        self.provisional_verdicts = Counter(
+            "hardlanding_provisional_verdicts_total",
+            "Provisional verdicts given to new landings; none where the envelope cannot tell.",
+            ["verdict"],
+            registry=self.registry,
+        )
         self.requests = Histogram(
             "hardlanding_http_request_seconds",
             "Duration of HTTP requests.",
@@ -89,6 +96,12 @@ class Metrics:
             registry=self.registry,
         )
         self.registry.register(_QueueCollector(engine))
+
+    def count_accepted(self, accepted: LandingAccepted) -> None:
+        """Count a landing that was handed in by itself."""
+        self.landings_received.labels("repeated" if accepted.is_repeated else "new").inc()
+        if accepted.provisional is not None and not accepted.is_repeated:
+            self.provisional_verdicts.labels(accepted.provisional.verdict or "none").inc()
 
 
 class _QueueCollector(Collector):
@@ -115,6 +128,11 @@ class _QueueCollector(Collector):
         verdicts = GaugeMetricFamily(
             "hardlanding_verdicts", "Assessments by verdict.", labels=["verdict"]
         )
+        provisional = GaugeMetricFamily(
+            "hardlanding_provisional_differences",
+            "Assessments with a provisional verdict, by whether the full one differs.",
+            labels=["differs"],
+        )
         with reading(self._engine) as session:
             pending = session.execute(
                 select(
@@ -135,6 +153,11 @@ class _QueueCollector(Collector):
             found = session.execute(
                 select(VerdictRow.verdict, func.count()).group_by(VerdictRow.verdict)
             ).all()
+            compared = session.execute(
+                select(VerdictRow.provisional_differs, func.count())
+                .where(VerdictRow.provisional_differs.is_not(None))
+                .group_by(VerdictRow.provisional_differs)
+            ).all()
         for name, rank in LANES.items():
             rows = [row for row in pending if row[0] == rank]
             for row in rows:
@@ -145,7 +168,9 @@ class _QueueCollector(Collector):
             states.add_metric([state], count)
         for verdict, count in found:
             verdicts.add_metric([verdict], count)
-        return [depth, oldest, states, verdicts]
+        for differs, count in compared:
+            provisional.add_metric(["true" if differs else "false"], count)
+        return [depth, oldest, states, verdicts, provisional]
 
 
 class RequestObserver:

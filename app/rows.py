@@ -44,7 +44,8 @@ def _maker(session: Session, column: Any, is_given: bool) -> Callable[[dict[str,
     name, default = column.name, column.default
     if is_given:
         if isinstance(column.type, JSON):
-            return lambda row: json.dumps(row[name])
+            # What a JSON column lacks is the database's null, as in a statement.
+            return lambda row: None if row[name] is None else json.dumps(row[name])
         return itemgetter(name)
     if default.is_callable:
         return lambda _row: default.arg(None)

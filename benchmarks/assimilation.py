@@ -24,6 +24,7 @@ from solver.assimilation.scattered_landing import scattered_landing
 from solver.flight_data.fleet import SyntheticLanding
 from solver.flight_data.frame_file import packaged_frame
 from solver.flight_data.geometry import aircraft_geometry
+from solver.flight_data.motion import velocity_at
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import Reconstruction, reconstruct
 from solver.flight_data.window import Window
@@ -31,6 +32,10 @@ from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
 
 AIRCRAFT = example_aircraft()
 GEOMETRY = aircraft_geometry(AIRCRAFT)
+
+#: A contact found so far from the true one is another one, and so is a bounce [s].
+LATE = 0.1
+BOUNCE = 0.2
 
 #: Sink rate from which a defect is worth finding [m/s].
 FIRM = 1.5
@@ -67,7 +72,8 @@ class Flown:
     frame: str
     landing: SyntheticLanding
     update: ContactUpdate
-    seconds: float  #: processor time of the assimilation
+    later: tuple[ContactUpdate, ...]  #: of the contacts after the first
+    seconds: float  #: processor time of the assimilation, a contact
 
     @property
     def truth(self) -> Array:
@@ -102,9 +108,13 @@ def fly(number: int, seed: int, defect: Defect) -> Flown | None:
     if not found.contacts:
         return None
     begun = process_time()
-    (update, *_) = assimilate(window, misplaced(found, defect.later), AIRCRAFT, GEOMETRY).updates
-    seconds = process_time() - begun
-    return None if update.misfit is None else Flown(frame, landing, update, seconds)
+    if defect.later:
+        found = misplaced(found, defect.later)
+    update, *later = assimilate(window, found, AIRCRAFT, GEOMETRY).updates
+    seconds = (process_time() - begun) / (1 + len(later))
+    if update.misfit is None:
+        return None
+    return Flown(frame, landing, update, tuple(later), seconds)
 
 
 def amplified(window: Window, gain: float) -> Window:
@@ -128,7 +138,7 @@ def misplaced(found: Reconstruction, later: float) -> Reconstruction:
 
 def root_mean_square(values: list[float]) -> float:
     """Root mean square."""
-    return float(np.sqrt(np.mean(np.square(values))))
+    return float(np.sqrt(np.mean(np.square(values)))) if values else float("nan")
 
 
 def sink_table(flown: list[Flown]) -> list[dict[str, float | str]]:
@@ -188,6 +198,49 @@ def misfits(flown: list[Flown]) -> dict[str, float]:
         "largest_pull": float(pulls.max()),
         "median_largest_pull": float(np.median(pulls)),
         "unexplained": sum(not m.is_explained for m in found),
+        "unexplained_though_found_within_0.1_s": sum(
+            not each.update.misfit.is_explained and abs(each.update.found.time) < LATE
+            for each in flown
+            if each.update.misfit is not None
+        ),
+        "contacts_off_by_more_than_0.1_s": sum(
+            abs(each.update.found.time) >= LATE for each in flown
+        ),
+    }
+
+
+def bounces(flown: list[Flown]) -> dict[str, float]:
+    """Sink rate at the bounces that were found where there was one."""
+    errors: list[tuple[float, float]] = []
+    squared: list[tuple[float, float]] = []
+    explained = unexplained = 0
+    for each in flown:
+        motion = each.landing.motion
+        down = velocity_at(motion, GEOMETRY.centre_of_gravity)[:, 2]
+        true_times = each.landing.main_contacts(GEOMETRY)[1:]
+        for update in each.later:
+            near = [time for time in true_times if abs(time - update.found.time) < BOUNCE]
+            if update.misfit is None or not near:
+                continue
+            explained += update.misfit.is_explained
+            unexplained += not update.misfit.is_explained
+            if not update.is_corrected:
+                continue
+            true = float(np.interp(near[0], motion.time, down))
+            pair = update.prior.sink_rate - true, update.contact.sink_rate - true
+            errors.append(pair)
+            variances = (
+                update.prior_uncertainty.matrix[0, 0],
+                update.uncertainty.matrix[0, 0],
+            )
+            squared.append((pair[0] ** 2 / variances[0], pair[1] ** 2 / variances[1]))
+    return {
+        "explained": explained,
+        "unexplained": unexplained,
+        "sink_rms_before": root_mean_square([error[0] for error in errors]),
+        "sink_rms_after": root_mean_square([error[1] for error in errors]),
+        "squared_before": float(np.mean([each[0] for each in squared])),
+        "squared_after": float(np.mean([each[1] for each in squared])),
     }
 
 
@@ -236,6 +289,9 @@ def draw(path: Path, flown: list[Flown]) -> None:
 def show(title: str, rows: list[dict[str, float | str]]) -> None:
     """Print a table."""
     print(f"\n{title}")
+    if not rows:
+        print("none")
+        return
     widths = {key: max(len(key), 12) + 2 for key in rows[0]}
     first = next(iter(widths))
     widths[first] = max(len(str(row[first])) for row in rows) + 2
@@ -243,6 +299,27 @@ def show(title: str, rows: list[dict[str, float | str]]) -> None:
     for row in rows:
         cells = {key: v if isinstance(v, str) else f"{v:.3g}" for key, v in row.items()}
         print("".join(f"{cells[key]:>{width}s}" for key, width in widths.items()))
+
+
+def show_good(count: int, seed: int, figure: Path | None) -> dict[str, object]:
+    """Fly landings without a defect and print what became of them."""
+    good = Defect("none")
+    flown = [each for k in range(count) if (each := fly(k, seed, good)) is not None]
+    document: dict[str, object] = {
+        "sink_rate": (sink := sink_table(flown)),
+        "components": (components := component_table(flown)),
+        "misfit": (misfit := misfits(flown)),
+        "bounces": (hops := bounces(flown)),
+        "seconds": float(np.mean([each.seconds for each in flown])),
+    }
+    show("sink rate [m/s] and normalised error squared of the state", sink)
+    show("components, SI", components)
+    print("\nmisfit of good recordings:", {k: round(v, 4) for k, v in misfit.items()})
+    print("bounces:", {k: round(v, 4) for k, v in hops.items()})
+    print(f"processor time {document['seconds']:.2f} s a contact")
+    if figure is not None:
+        draw(figure, flown)
+    return document
 
 
 def main() -> None:
@@ -254,22 +331,9 @@ def main() -> None:
     parser.add_argument("--json", type=Path, help="write the figures here")
     parser.add_argument("--figure", type=Path, help="draw peaks and misfits (SVG or PNG)")
     given = parser.parse_args()
-    good = Defect("none")
-    flown = [
-        each for k in range(given.landings) if (each := fly(k, given.first_seed, good)) is not None
-    ]
-    document: dict[str, object] = {
-        "sink_rate": (sink := sink_table(flown)),
-        "components": (components := component_table(flown)),
-        "misfit": (misfit := misfits(flown)),
-        "seconds": float(np.mean([each.seconds for each in flown])),
-    }
-    show("sink rate [m/s] and normalised error squared of the state", sink)
-    show("components, SI", components)
-    print("\nmisfit of good recordings:", {k: round(v, 4) for k, v in misfit.items()})
-    print(f"processor time {document['seconds']:.2f} s a contact")
-    if given.figure is not None:
-        draw(given.figure, flown)
+    document: dict[str, object] = {}
+    if given.landings:
+        document |= show_good(given.landings, given.first_seed, given.figure)
     if given.defects:
         rows = [defect_row(defect, given.defects, given.first_seed + 5_000) for defect in DEFECTS]
         show(f"defects; firm means above {FIRM} m/s", rows)

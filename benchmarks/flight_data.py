@@ -4,7 +4,7 @@
 the packaged frames in turn, and compares what is recovered with the truth of the simulation.  For
 each quantity it prints the root mean square error, the mean stated standard deviation and the
 mean of the squared ratio of error to stated deviation, which is 1 where the deviations are honest;
-beside it the sink rate from differenced radio altitude.
+beside it the sink rate from differenced radio altitude; for times also the share within 0.1 s.
 """
 
 import argparse
@@ -30,6 +30,9 @@ EXAMPLE = Path(__file__).parents[1] / "examples" / "landing_level_10fps.json"
 #: A bounce that is found belongs to the true one that is closer than this [s].
 MATCH = 0.4
 
+#: What a contact's time may be off by [s].
+WANTED = 0.1
+
 
 @dataclass(slots=True)
 class Tally:
@@ -51,6 +54,7 @@ class Tally:
             "rms_error": float(np.sqrt(np.mean(error**2))),
             "median_error": float(np.median(np.abs(error))),
             "bias": float(np.mean(error)),
+            "share_within_0.1": float(np.mean(np.abs(error) <= WANTED)),
             "mean_sd": float(np.mean(sd)),
             "normalised_error_squared": float(np.mean((error / sd) ** 2)),
         }
@@ -67,7 +71,9 @@ class Score:
     late: int = 0  #: first contacts off by more than 0.1 s
     true_bounces: int = 0
     found_bounces: int = 0
+    half_bounces: int = 0  #: of the others, those where only one main gear was off the ground
     false_bounces: int = 0
+    called_one_gear: int = 0  #: of those not found, those reported as of one gear
 
     def tally(self, name: str) -> Tally:
         """Tally by name, made on first use."""
@@ -81,7 +87,7 @@ class Score:
             return
         first = answer.contacts[0]
         self.tally("time_s").add(first.time, first.time_sd)
-        self.late += abs(first.time) > 0.1
+        self.late += abs(first.time) > WANTED
         state, contact = first.state, landing.contact
         truths = {
             name: getattr(contact, name, contact.lift.fraction) for name in CONTACT_COMPONENTS
@@ -103,6 +109,7 @@ class Score:
 
     def _later(self, landing: SyntheticLanding, answer: Reconstruction, geometry: Geometry) -> None:
         ours = [c for c in answer.contacts if c.kind is ContactKind.BOUNCE]
+        single = [c.time for c in answer.contacts if c.kind is ContactKind.ONE_GEAR]
         used: set[int] = set()
         for time in landing.main_contacts(geometry)[1:]:
             self.true_bounces += 1
@@ -112,7 +119,14 @@ class Score:
                 used.add(index)
                 self.found_bounces += 1
                 self.tally("bounce_time_s").add(ours[index].time - time, ours[index].time_sd)
-        self.false_bounces += len(ours) - len(used)
+            else:
+                self.called_one_gear += any(abs(other - time) < MATCH for other in single)
+        again = landing.main_gears_again(geometry)
+        for index, contact in enumerate(ours):
+            if index not in used:
+                is_half = any(abs(contact.time - time) < MATCH for time in again)
+                self.half_bounces += is_half
+                self.false_bounces += not is_half
         nose = [c for c in answer.contacts if c.kind is ContactKind.DEROTATION]
         true_nose = landing.nose_contact(geometry)
         if nose and true_nose is not None:
@@ -126,6 +140,8 @@ class Score:
             "first_contact_off_by_more_than_0.1_s": self.late,
             "bounces": self.true_bounces,
             "bounces_found": self.found_bounces,
+            "bounces_reported_as_of_one_gear": self.called_one_gear,
+            "bounces_of_one_gear_only": self.half_bounces,
             "bounces_false": self.false_bounces,
             "normalised_error_squared_of_the_state": float(np.mean(self.joint)),
             "quantities": {name: tally.summary() for name, tally in self.tallies.items()},
@@ -173,17 +189,23 @@ def show(name: str, score: Score) -> None:
     """Print one table."""
     print(
         f"\n{name}: {score.landings} landings, {score.undetermined} undetermined, "
-        f"{score.late} first contacts off by more than 0.1 s, bounces {score.found_bounces} of "
-        f"{score.true_bounces} found and {score.false_bounces} false; "
+        f"{score.late} first contacts off by more than 0.1 s; bounces: {score.found_bounces} of "
+        f"{score.true_bounces} found, {score.called_one_gear} more reported as of one gear, "
+        f"{score.half_bounces} reported where one gear stayed down, {score.false_bounces} where "
+        "both did; "
         f"state's normalised error squared {np.mean(score.joint):.2f}"
     )
-    print(f"{'':28s}{'rms':>9s}{'median':>9s}{'bias':>9s}{'sd':>9s}{'(e/sd)^2':>9s}")
+    print(
+        f"{'':28s}{'rms':>9s}{'median':>9s}{'bias':>9s}{'sd':>9s}{'(e/sd)^2':>9s}{'<= 0.1 s':>9s}"
+    )
     for label, tally in score.tallies.items():
         s = tally.summary()
         honest = "" if label.startswith("radio") else f"{s['normalised_error_squared']:9.2f}"
         sd = "" if label.startswith("radio") else f"{s['mean_sd']:9.4f}"
+        within = f"{s['share_within_0.1']:9.3f}" if "time" in label else ""
         print(
-            f"{label:28s}{s['rms_error']:9.4f}{s['median_error']:9.4f}{s['bias']:9.4f}{sd}{honest}"
+            f"{label:28s}{s['rms_error']:9.4f}{s['median_error']:9.4f}{s['bias']:9.4f}"
+            f"{sd}{honest}{within}"
         )
 
 

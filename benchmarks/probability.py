@@ -14,16 +14,17 @@ from time import perf_counter, process_time
 
 from threadpoolctl import threadpool_limits
 
+from app.cli.demo import EXAMPLE_AIRCRAFT
 from benchmarks.console import ConsoleProgress
 from benchmarks.landing import VAR, machine_rates
-from solver.assess import AssessmentModel, assess_landing
+from solver.aircraft.bizjet import build_bizjet
+from solver.assess import AssessmentModel, assess_landing, load_assessment_model
 from solver.assessment import TouchdownRecord
 from solver.landing.batch import available_cores, simulate_landings
 from solver.landing.contact import Contact
 from solver.landing.contact_uncertainty import ContactUncertainty
 from solver.landing.history import LandingHistory
 from solver.probability.exceedance import SAMPLE_OPTIONS
-from verification.run import Run
 
 DEGREE = math.pi / 180.0
 
@@ -100,17 +101,19 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--landings", type=int, default=64, help="of the batch")
     options = parser.parse_args(arguments)
+    progress = ConsoleProgress()
     with threadpool_limits(1):
-        run = Run(VAR / "verify", progress=ConsoleProgress())
-        model = AssessmentModel(run.airframe, run.reduced)
+        folder = VAR / "aircraft" / EXAMPLE_AIRCRAFT
+        build_bizjet(folder, progress=progress)
+        model = load_assessment_model(folder, VAR / "cache", progress)
         rates = machine_rates()
         assess_landing(model, TouchdownRecord(model.name, (contact(0.5),)))
         batch = timed_batch(model, options.landings)
         rows = {name: timed_landing(model, sink_rate) for name, sink_rate in LANDINGS}
-    folder = VAR / "bench"
-    folder.mkdir(parents=True, exist_ok=True)
+    results = VAR / "bench"
+    results.mkdir(parents=True, exist_ok=True)
     stored = {**rates, "cores": available_cores(), "batch": batch, "landings": rows}
-    (folder / "probability.json").write_text(json.dumps(stored, indent=1))
+    (results / "probability.json").write_text(json.dumps(stored, indent=1))
     print(
         f"machine: {available_cores()} cores, one core {rates['product_gflop_s']:.0f} Gflop/s "
         f"single-precision products, {rates['copy_gb_s']:.1f} GB/s copies"

@@ -1,8 +1,8 @@
 """How the cost of a landing grows with the airframe (``make bench-scaling``).
 
 The same aircraft is meshed with every bay divided 1, 2 and 4 times in both directions.  What is
-built is kept below ``var/bench/scaling``; a run that is stopped goes on where it was.  Every size
-is measured in a process of its own, one thread, processor time.
+built is kept below ``var/bench/scaling``; a run that is stopped goes on with the size it was at.
+Each is measured in a process of its own, one thread, processor time.
 
 Resident memory is the largest that a process had while it assessed a landing: all of it, and
 without the mapped files.  Those pages are shared by all processes on a machine and dropped when it
@@ -69,20 +69,23 @@ def build(size: int) -> None:
     build_bizjet(folder, float(size), progress=progress)
     start = process_time()
     airframe = load_airframe(folder, progress)
-    reduced_model(airframe, FOLDER / "cache", progress=progress)
+    reduced = reduced_model(airframe, FOLDER / "cache", progress=progress)
     cost = {
         "freedoms": airframe.structure.n_free,
         "build_s": process_time() - start,
         "build_peak_gb": memory("VmHWM"),
     }
-    (folder / "build.json").write_text(json.dumps(cost))
+    (folder / "build.json").write_text(json.dumps({"key": reduced.key, "cost": cost}))
 
 
 def measure(size: int) -> dict[str, float]:
     """Figures of one size; the model is there already."""
-    cost: dict[str, float] = json.loads((FOLDER / str(size) / "build.json").read_text())
-    load_assessment_model(FOLDER / str(size), FOLDER / "cache")  # leaves the airframe stored
-    model, start = measured(lambda: load_assessment_model(FOLDER / str(size), FOLDER / "cache"))
+    folder, cache = FOLDER / str(size), FOLDER / "cache"
+    built = json.loads((folder / "build.json").read_text())
+    load_assessment_model(folder, cache)  # leaves the airframe stored
+    model, start = measured(lambda: load_assessment_model(folder, cache))
+    if model.reduced.key != built["key"]:
+        raise SystemExit(f"{folder} was built by another version: remove it and run again")
     airframe, reduced, case = model.airframe, model.reduced, CASES[0]
     assess_landing(model, TouchdownRecord(aircraft=model.name, contacts=(case.contact,)))
     Path("/proc/self/clear_refs").write_text("5")  # the largest so far is forgotten
@@ -105,7 +108,7 @@ def measure(size: int) -> dict[str, float]:
         "resident_gb": resident,
         "unshared_gb": resident - files,
         "start_s": start,
-        **cost,
+        **built["cost"],
     }
 
 

@@ -1,7 +1,7 @@
 """Assessments as the service answers them."""
 
 from datetime import datetime
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, Field
 
@@ -124,6 +124,38 @@ class VerdictOut(BaseModel):
     assessed_at: datetime
 
 
+class Span(BaseModel):
+    """A number and where it may lie by the envelope's error; null beyond the envelope."""
+
+    value: float | None
+    low: float | None
+    high: float | None
+
+
+class ProvisionalOut(BaseModel):
+    """First answer to a landing, from its aircraft's envelope; the full verdict follows."""
+
+    is_provisional: Literal[True] = True
+    verdict: Verdict | None = Field(
+        description="Of the stress verdict to come, on the stricter side of the envelope's error; "
+        "null where it cannot be told beforehand."
+    )
+    reasons: list[str] = Field(description="Why there is none, or what it does not speak for.")
+    contact: int | None = Field(
+        default=None, description="The contact that decides, of those whose state is known."
+    )
+    sink_rate_m_s: float | None = Field(default=None, description="Of that contact.")
+    utilisation: Span | None = Field(default=None, description="Expected, of the limits.")
+    limit_sink_rate_m_s: Span | None = Field(
+        default=None,
+        description="At which a limit would be reached in its attitude, loading and lift.",
+    )
+    rests_on: str | None = None
+    model_hash: str | None = None
+    program_version: str | None = None
+    advisory: str = ADVISORY
+
+
 class AssessmentOut(BaseModel):
     """An assessment: where it stands and, once it is done, its verdict."""
 
@@ -136,6 +168,15 @@ class AssessmentOut(BaseModel):
     started_at: datetime | None
     finished_at: datetime | None
     last_error: str | None = Field(description="Why the last attempt ended without a verdict.")
+    provisional: ProvisionalOut | None = Field(
+        default=None, description="Made when the record came in; null for those of a back-fill."
+    )
+    provisional_differs: bool | None = Field(
+        default=None, description="Null until there are both verdicts."
+    )
+    provisional_difference: str | None = Field(
+        default=None, description="How they differ, in one sentence."
+    )
     result: VerdictOut | None = None
     links: dict[str, str]
     advisory: str = ADVISORY

@@ -51,6 +51,8 @@ class AssessmentJob(Base):
     worker: Mapped[str | None] = mapped_column(String(100))
     last_error: Mapped[str | None] = mapped_column(Text)
     version: Mapped[int] = mapped_column(Integer, default=1)  #: rises with every change
+    #: Given with the record's acceptance; see `app.assessments.provisional`.
+    provisional: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
 
 
 class VerdictRow(Base):
@@ -67,6 +69,7 @@ class VerdictRow(Base):
     rule_difference: Mapped[str] = mapped_column(String(20))
     makers_rule: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     is_provisional: Mapped[bool] = mapped_column(default=False)
+    provisional_differs: Mapped[bool | None] = mapped_column()  #: None: there was none
     probability_limit_exceeded: Mapped[float | None] = mapped_column(Float)
     #: with its sampling error and basis
     limit_probability: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))

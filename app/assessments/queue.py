@@ -32,6 +32,7 @@ class Claim:
     attempts: int
     lease_until: datetime
     inputs: dict[str, Any]  #: of the solver
+    provisional: dict[str, Any] | None = None  #: verdict given when the landing came in
 
 
 def _is_due(max_attempts: int) -> Any:
@@ -110,6 +111,7 @@ def claim(
             AssessmentJob.attempts,
             AssessmentJob.lease_until,
             record.scalar_subquery(),
+            AssessmentJob.provisional,
             AssessmentJob.created_at,
             # A claim that a power cut takes back is made again; who holds it then is fenced.
             UnhurriedCommit(),
@@ -117,7 +119,7 @@ def claim(
         .execution_options(synchronize_session=False)
     ).all()
     # What an update returns comes in no order.
-    return [Claim(*row[:7]) for row in sorted(rows, key=itemgetter(7, 0))]
+    return [Claim(*row[:8]) for row in sorted(rows, key=itemgetter(8, 0))]
 
 
 def finish(session: Session, claims: Sequence[Claim]) -> list[Claim]:

@@ -12,6 +12,7 @@ from app.artefacts.container import compress
 from app.artefacts.store import DatabaseStore, KeptArtefact
 from app.assessments import arrays, queue
 from app.assessments.models import HotSpotRow, VerdictRow
+from app.assessments.provisional import differs
 from app.assessments.queue import Claim
 from app.audit import service as audit
 from app.rows import insert_rows
@@ -55,6 +56,7 @@ def answer(claimed: Claim, assessment: Assessment, *, keeps_arrays_from: float) 
                 "verdict": str(assessment.verdict),
                 "action": str(assessment.action),
                 "attempt": claimed.attempts,
+                "provisional_differs": differs(claimed.provisional, assessment.verdict),
             },
         ),
     )
@@ -91,6 +93,7 @@ def _verdict(claimed: Claim, assessment: Assessment) -> dict[str, Any]:
         "operator_id": claimed.operator_id,
         "landing_id": claimed.landing_id,
         "verdict": assessment.verdict,
+        "provisional_differs": differs(claimed.provisional, assessment.verdict),
         "action": assessment.action,
         "rule_difference": assessment.rule_difference,
         "makers_rule": _rule(assessment.makers_rule),

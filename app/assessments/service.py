@@ -1,5 +1,7 @@
 """Answers about assessments, and trying one again by hand."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from sqlalchemy import Engine
@@ -15,10 +17,12 @@ from app.assessments.answers import (
     HotSpotOut,
     HotSpots,
     PeakFieldOut,
+    ProvisionalOut,
     VerdictOut,
 )
 from app.assessments.arrays import PEAK_FIELD, history_kind
 from app.assessments.models import AssessmentJob, VerdictRow
+from app.assessments.provisional import difference
 from app.assessments.states import PENDING, RETRIABLE, State
 from app.audit import service as audit
 from app.config import LANE_NAMES
@@ -187,6 +191,7 @@ def _answer(job: AssessmentJob, verdict: VerdictRow | None) -> AssessmentOut:
         started_at=job.started_at,
         finished_at=job.finished_at,
         last_error=job.last_error,
+        **_provisional(job, verdict),
         result=None if verdict is None else _result(verdict),
         links={
             "landing": f"/v1/landings/{job.landing_id}",
@@ -196,6 +201,19 @@ def _answer(job: AssessmentJob, verdict: VerdictRow | None) -> AssessmentOut:
         }
         | ({"model": f"/v1/models/{verdict.model_hash}"} if verdict else {}),
     )
+
+
+def _provisional(job: AssessmentJob, verdict: VerdictRow | None) -> dict[str, Any]:
+    stored = job.provisional
+    answer: dict[str, Any] = {
+        "provisional": None if stored is None else ProvisionalOut.model_validate(stored)
+    }
+    if verdict is not None:
+        answer["provisional_differs"] = verdict.provisional_differs
+        answer["provisional_difference"] = difference(
+            stored, Verdict(verdict.verdict), verdict.worst_utilisation
+        )
+    return answer
 
 
 def _result(verdict: VerdictRow) -> VerdictOut:

@@ -2,7 +2,7 @@
 
 import json
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -46,7 +46,10 @@ def assess(
             model = load_assessment_model(
                 folder / intake.record.aircraft, settings.cache_folder, progress
             )
-            assessment = assess_landing(model, intake.record, progress)
+            landing = intake.record
+            if not settings.propagate_uncertainty:
+                landing = replace(landing, uncertainties=())
+            assessment = assess_landing(model, landing, progress)
     except (InvalidRecordError, SolverError, OSError) as error:
         STANDARD_ERROR.print(str(error), style="red", markup=False)
         raise typer.Exit(2) from error
@@ -58,11 +61,12 @@ def assess(
 
 def document(assessment: Assessment) -> dict[str, Any]:
     """Turn an assessment without its arrays into plain JSON values."""
-    return {
+    named = {
         field.name: _plain(getattr(assessment, field.name))
         for field in fields(assessment)
         if field.name not in _LEFT_OUT
     }
+    return named | {"probability_limit_exceeded": assessment.probability_limit_exceeded}
 
 
 def _plain(value: Any) -> Any:
@@ -115,7 +119,7 @@ def show(assessment: Assessment, console: Console) -> None:
         console.print(f"  {reason.verdict}: {reason.text}", markup=False)
     _show_action(assessment, console)
     spots = Table(title="Where to look", title_justify="left")
-    for heading in ("zone", "side", "element", "stress MPa", "used", "time s", "ATA"):
+    for heading in ("zone", "side", "element", "stress MPa", "used", "P", "time s", "ATA"):
         spots.add_column(heading)
     for spot in assessment.hot_spots:
         spots.add_row(
@@ -124,6 +128,9 @@ def show(assessment: Assessment, console: Console) -> None:
             f"{spot.element_kind} {spot.element}",
             f"{spot.peak_stress / 1e6:.0f}",
             f"{spot.utilisation:.0%}",
+            ""
+            if spot.probability_limit_exceeded is None
+            else f"{spot.probability_limit_exceeded:.0%}",
             f"{spot.time:.3f}",
             spot.ata_chapter,
         )

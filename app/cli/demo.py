@@ -47,12 +47,17 @@ def run(
     url = f"http://{settings.host}:{settings.port}"
     log = settings.var / "service.log"
 
+    shown = threading.Event()
+
     def show() -> None:
         console = Console()
         if not _is_ready(url):
             console.print(f"the service did not answer at {url}", style="red")
             return
-        post_demo_landings(url, key, console)
+        try:
+            post_demo_landings(url, key, console)
+        finally:
+            shown.set()
         console.print(
             f"\nThe service is up: {url}/docs. Look further, for example:\n"
             f"  curl -s -H 'X-API-Key: {key}' {url}/v1/landings\n"
@@ -62,7 +67,8 @@ def run(
         )
 
     threading.Thread(target=show, name="demo", daemon=True).start()
-    supervise(settings, log)
+    # What takes both cores for minutes begins when the demonstration is over.
+    supervise(settings, log, is_calm=shown)
 
 
 def prepare(settings: Settings) -> None:

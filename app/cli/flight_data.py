@@ -145,6 +145,7 @@ def _contact(contact: FoundContact) -> dict[str, Any]:
         "kind": str(contact.kind),
         "time_s": contact.time,
         "time_sd_s": contact.time_sd,
+        "chance": contact.chance,
         "gear": contact.gear,
         "indicators": [
             {

@@ -6,6 +6,7 @@ from app.cli.aircraft import aircraft
 from app.cli.assess import assess
 from app.cli.demo import demo, run
 from app.cli.drop_test import drop_test
+from app.cli.envelope import envelope
 from app.cli.flight_data import flight_data
 from app.cli.key import key
 from app.cli.migrate import migrate
@@ -26,6 +27,7 @@ app.command()(migrate)
 app.add_typer(key, name="key", help="API keys.")
 app.command()(assess)
 app.command()(simulate)
+app.command()(envelope)
 app.command(name="drop-test")(drop_test)
 app.command(name="flight-data")(flight_data)
 app.add_typer(aircraft, name="aircraft", help="Aircraft folders: build the example, check any.")

@@ -2,11 +2,13 @@
 
 import os
 import sys
+import threading
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from app.cli.envelope import missing_command
 from app.cli.migrate import upgrade
 from app.cli.supervisor import Program, Supervisor
 from app.cli.worker import worker_command
@@ -42,10 +44,17 @@ def serve(
     supervise(settings)
 
 
-def supervise(settings: Settings, log: Path | None = None) -> None:
-    """Run API and worker side by side until SIGTERM or SIGINT; they print to ``log`` if given."""
+def supervise(
+    settings: Settings, log: Path | None = None, is_calm: threading.Event | None = None
+) -> None:
+    """Run API and worker side by side until SIGTERM or SIGINT; they print to ``log`` if given.
+
+    Envelopes that are missing are made beside them, from ``is_calm`` on.
+    """
     programs = [
         Program("api", api_command(settings)),
         Program("worker", worker_command(settings.worker_concurrency)),
     ]
+    if settings.makes_envelopes:
+        programs.append(Program("envelope", missing_command(), is_once=True, may_start=is_calm))
     Supervisor(programs, say=lambda line: typer.echo(line, err=True), log=log).run()

@@ -1,10 +1,12 @@
 """Keeps a few programs running together: starts, restarts, and takes them all down."""
 
 import ctypes
+import math
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -31,6 +33,9 @@ class Program:
     started: float = 0.0
     pause: float = SHORTEST_PAUSE
     due: float = 0.0
+    #: Ends by itself when its work is done; it is started again only if it failed.
+    is_once: bool = False
+    may_start: threading.Event | None = None  #: not before it is set
 
 
 @dataclass(slots=True)
@@ -61,6 +66,8 @@ class Supervisor:
     def _tend(self, program: Program) -> None:
         now = time.monotonic()
         if program.process is None:
+            if program.may_start is not None and not program.may_start.is_set():
+                return
             if now >= program.due:
                 program.process = self._start(program.command)
                 program.started = now
@@ -69,6 +76,9 @@ class Supervisor:
         if code is None:
             return
         _kill_group(program.process, signal.SIGKILL)  # children it left behind
+        if program.is_once and code == 0:
+            program.process, program.due = None, math.inf
+            return
         if now - program.started >= CALM:
             program.pause = SHORTEST_PAUSE
         self.say(f"{program.name} ended with {code}; starting it again in {program.pause:g} s")

@@ -35,7 +35,9 @@ class EstimatedParameter(BaseModel):
     prior_sd: float
     posterior: float
     posterior_sd: float
-    pull: float = Field(description="Move over the scatter that it should have; beyond 4.5: no.")
+    pull: float = Field(
+        description="How far it moved over the scatter that such a move has by chance."
+    )
 
 
 class ResponseCompared(BaseModel):
@@ -62,6 +64,7 @@ class ContactFound(BaseModel):
     gear: str
     time_s: float = Field(description="On the window's clock.")
     time_sd_s: float
+    chance: float = Field(description="That there was such a contact.", ge=0, le=1)
     sink_rate_m_s: float = Field(description="Of the centre of gravity, downward; as assessed.")
     sink_rate_sd_m_s: float
     gear_sink_rates_m_s: dict[str, float] = Field(description="From before the contact alone.")
@@ -81,6 +84,7 @@ def contact_found(found: FoundContact, update: ContactUpdate | None) -> ContactF
         gear=found.gear,
         time_s=found.time,
         time_sd_s=found.time_sd,
+        chance=found.chance,
         sink_rate_m_s=state.sink_rate.value,
         sink_rate_sd_m_s=state.sink_rate.sd,
         gear_sink_rates_m_s={gear: each.value for gear, each in state.gear_sink_rates.items()},

@@ -41,6 +41,7 @@ def post_flight_data(
         context.engine,
         context.settings,
         context.registry,
+        context.envelopes,
         principal,
         content,
         wanted,
@@ -48,6 +49,6 @@ def post_flight_data(
     )
     response.headers["Location"] = accepted.links["assessment"]
     response.headers["Retry-After"] = "1"
-    context.metrics.landings_received.labels("repeated" if accepted.is_repeated else "new").inc()
+    context.metrics.count_accepted(accepted)
     after.add_task(context.nudger.nudge)
     return accepted

@@ -17,6 +17,7 @@ from solver.assimilation.assimilate import (
     assimilate,
     uncorrected,
 )
+from solver.assimilation.state import STATE_UNITS
 from solver.errors import FlightDataError, ModelError, SolverError
 from solver.flight_data.frame_file import frame_names, packaged_frame
 from solver.flight_data.geometry import Geometry, Place, geometry_on_gears
@@ -38,17 +39,6 @@ _PEAK_SPAN = 0.6
 _MOST_CONTACTS = 12
 
 _FIRST_GEAR = {Place.LEFT: "ML", Place.RIGHT: "MR", Place.NOSE: "N"}
-
-_UNITS = {
-    "sink_rate": "m/s",
-    "pitch": "rad",
-    "roll": "rad",
-    "drift": "rad",
-    "ground_speed": "m/s",
-    "pitch_rate": "rad/s",
-    "roll_rate": "rad/s",
-    "yaw_rate": "rad/s",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,8 +175,9 @@ def _contact(
         "t_sd_s": found.time_sd,
         "first_gear": _FIRST_GEAR[places[found.gear]],
     }
-    for name, unit in _UNITS.items():
-        if name not in silent and np.isfinite(sd[name]):
+    for name, unit in STATE_UNITS.items():
+        is_known = name not in silent and np.isfinite(sd[name])
+        if is_known and name != "lift_fraction":
             given[name] = _number(getattr(contact, name), sd[name], unit)
     given["sink_rate"]["method"] = "smoother + response" if update.is_corrected else "smoother"
     given["lift"] = {

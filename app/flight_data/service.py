@@ -5,6 +5,7 @@ from typing import Any
 from sqlalchemy import Engine
 
 from app.config import Settings
+from app.fleet.envelopes import Envelopes
 from app.fleet.registry import AircraftRegistry
 from app.flight_data.answers import CannotTell, WindowAccepted, WindowNote
 from app.flight_data.contact_answers import contact_found
@@ -21,6 +22,7 @@ def accept(
     engine: Engine,
     settings: Settings,
     registry: AircraftRegistry,
+    envelopes: Envelopes,
     principal: Principal,
     content: bytes,
     query: WindowQuery,
@@ -38,6 +40,7 @@ def accept(
         engine,
         settings,
         registry,
+        envelopes,
         principal,
         parse_record(intake.record),
         lane=query.lane,

@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, Field
 
+from app.assessments.answers import ProvisionalOut
 from app.assessments.states import State
 from app.errors import ProblemDocument
 from app.landings.schemas import Strict, Token, UtcTime
@@ -71,6 +72,9 @@ class LandingAccepted(BaseModel):
     sd_defaulted: list[str]
     taken_as_zero: list[str]
     missing: list[str] = Field(description="What the record lacks for a verdict.")
+    provisional: ProvisionalOut | None = Field(
+        description="First answer; null for a landing that was taken in with a back-fill before."
+    )
     links: dict[str, str]
 
 

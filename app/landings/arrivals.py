@@ -34,6 +34,7 @@ class Arrival:
     sd: dict[str, float]
     sd_defaulted: list[str]
     taken_as_zero: list[str]
+    provisional: dict[str, Any] | None = None  #: verdict; see `app.assessments.provisional`
 
 
 @dataclass(frozen=True, slots=True)

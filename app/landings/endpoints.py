@@ -61,6 +61,7 @@ def post_landing(
         context.engine,
         context.settings,
         context.registry,
+        context.envelopes,
         principal,
         record,
         lane=lane,
@@ -68,7 +69,7 @@ def post_landing(
     )
     response.headers["Location"] = accepted.links["assessment"]
     response.headers["Retry-After"] = "1"
-    context.metrics.landings_received.labels("repeated" if accepted.is_repeated else "new").inc()
+    context.metrics.count_accepted(accepted)
     after.add_task(context.nudger.nudge)
     return accepted
 

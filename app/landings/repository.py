@@ -30,6 +30,7 @@ class Kept:
     landing_id: str
     assessment_id: str
     state: str
+    provisional: dict[str, Any] | None
     body_digest: str
     is_repeated: bool = True
 
@@ -46,13 +47,17 @@ def kept(session: Session, principal: Principal, record_ids: Sequence[str]) -> d
         return {}
     # Asked apart: joined to a table that has just grown, new records would be sought by reading it.
     jobs = scoped(principal, AssessmentJob).with_only_columns(
-        AssessmentJob.landing_id, AssessmentJob.id, AssessmentJob.state
+        AssessmentJob.landing_id,
+        AssessmentJob.id,
+        AssessmentJob.state,
+        AssessmentJob.provisional,
     )
     found = session.execute(jobs.where(AssessmentJob.landing_id.in_([row[0] for row in landings])))
     by_landing = {row[0]: row for row in found}
     return {
-        record_id: Kept(*by_landing[landing_id], body_digest)
+        record_id: Kept(landing_id, job.id, job.state, job.provisional, body_digest)
         for landing_id, record_id, body_digest in landings
+        for job in [by_landing[landing_id]]
     }
 
 
@@ -86,6 +91,7 @@ def store(
                 "operator_id": principal.operator_id,
                 "landing_id": landing_id,
                 "lane": lane,
+                "provisional": arrival.provisional,
             }
         )
         entries.append(
@@ -99,16 +105,28 @@ def store(
                     "assessment": assessment_id,
                     "lane": LANE_NAMES[lane],
                     "body_sha256": arrival.body_digest,
-                },
+                }
+                | _provisional(arrival),
             )
         )
         stored[arrival.record_id] = Kept(
-            landing_id, assessment_id, State.QUEUED, arrival.body_digest, is_repeated=False
+            landing_id,
+            assessment_id,
+            State.QUEUED,
+            arrival.provisional,
+            arrival.body_digest,
+            is_repeated=False,
         )
     insert_rows(session, Landing, landings)
     insert_rows(session, AssessmentJob, jobs)
     audit.record_all(session, entries)
     return stored
+
+
+def _provisional(arrival: Arrival) -> dict[str, Any]:
+    """What the audit log notes of a provisional verdict; nothing where none was asked for."""
+    given = arrival.provisional
+    return {} if given is None else {"provisional": given["verdict"]}
 
 
 def count_anew(session: Session) -> None:
@@ -121,7 +139,13 @@ def by_idempotency_key(session: Session, principal: Principal, key: str) -> Kept
     """The landing that a key was used for, with the digest of the body it came with."""
     statement = (
         scoped(principal, Landing)
-        .with_only_columns(Landing.id, AssessmentJob.id, AssessmentJob.state, Landing.body_digest)
+        .with_only_columns(
+            Landing.id,
+            AssessmentJob.id,
+            AssessmentJob.state,
+            AssessmentJob.provisional,
+            Landing.body_digest,
+        )
         .join(AssessmentJob, AssessmentJob.landing_id == Landing.id)
         .join(IdempotencyKey, IdempotencyKey.landing_id == Landing.id)
         .where(

@@ -8,12 +8,15 @@ from sqlalchemy import Engine
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
+from app.assessments.answers import ProvisionalOut
+from app.assessments.provisional import provisional
 from app.assessments.states import State
 from app.config import LANES, Settings
 from app.db import reading, writing
 from app.errors import not_found, problem
+from app.fleet.envelopes import Envelopes
 from app.fleet.registry import AircraftRegistry
-from app.landings import arrivals, repository
+from app.landings import arrivals, inputs, repository
 from app.landings.answers import LandingAccepted, LandingDetail, LandingFilter, LandingSummary
 from app.landings.arrivals import Arrival, Reconstructed
 from app.landings.repository import Kept
@@ -27,6 +30,7 @@ def accept(
     engine: Engine,
     settings: Settings,
     registry: AircraftRegistry,
+    envelopes: Envelopes,
     principal: Principal,
     record: TouchdownRecordIn,
     *,
@@ -37,12 +41,17 @@ def accept(
 ) -> LandingAccepted:
     """Store a landing and its assessment in one transaction, or find the one it repeats.
 
+    Its provisional verdict is given and stored with it.
     ``body_digest`` is the identity of what the record was made from, where that is not the record
     itself; ``reconstructed`` is what else is known where it was made from a recording.
     """
     known = arrivals.fleet(registry)
     arrival = arrivals.check(
         record, principal, known, body_digest=body_digest, reconstructed=reconstructed
+    )
+    arrival = replace(
+        arrival,
+        provisional=provisional(envelopes.get(arrival.aircraft), inputs.from_json(arrival.inputs)),
     )
     try:
         kept = _accept(engine, settings, principal, arrival, lane, idempotency_key)
@@ -57,6 +66,9 @@ def accept(
         sd_defaulted=arrival.sd_defaulted,
         taken_as_zero=arrival.taken_as_zero,
         missing=list(arrival.inputs["missing"]),
+        provisional=None
+        if kept.provisional is None
+        else ProvisionalOut.model_validate(kept.provisional),
         links=_links(kept.landing_id, kept.assessment_id),
     )
 

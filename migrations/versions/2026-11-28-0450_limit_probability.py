@@ -4,7 +4,7 @@ import sqlalchemy as sa
 from alembic import op
 
 revision = "limit_probability"
-down_revision = "makers_rules"
+down_revision = "provisional_verdicts"
 branch_labels = None
 depends_on = None
 

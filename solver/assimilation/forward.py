@@ -12,6 +12,9 @@ from solver.errors import SolverError
 from solver.landing.history import LandingHistory
 from solver.landing.simulate import SimulationOptions, simulate_landing
 
+#: Landings kept: more than one set of derivatives takes, few enough to forget about memory.
+_KEPT = 64
+
 #: Grid of the simulated courses: ten points to a swing of a leg at 25 Hz [s].
 _INTERVAL = 4e-3
 
@@ -31,7 +34,7 @@ class LandingPrediction:
             stop_when_settled=False,
         )
         self._histories: dict[bytes, LandingHistory | None] = {}
-        self._kept: dict[tuple[bytes, bytes], SensorCourses] = {}
+        self._courses_kept: dict[tuple[bytes, bytes], SensorCourses] = {}
 
     def __call__(self, whitened: Array) -> Array | None:
         """(n,) parameters to (m,) samples of all channels; None if it cannot be simulated."""
@@ -58,10 +61,14 @@ class LandingPrediction:
             except SolverError:
                 # A step too far; the iteration takes a shorter one.
                 self._histories[key] = None
+            if len(self._histories) > _KEPT:
+                self._histories.pop(next(iter(self._histories)))
         history = self._histories[key]
         if history is None:
             return None
         at = (key, place.tobytes())
-        if at not in self._kept:
-            self._kept[at] = SensorCourses(history, place)
-        return self._kept[at]
+        if at not in self._courses_kept:
+            self._courses_kept[at] = SensorCourses(history, place)
+            if len(self._courses_kept) > _KEPT:
+                self._courses_kept.pop(next(iter(self._courses_kept)))
+        return self._courses_kept[at]

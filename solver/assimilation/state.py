@@ -33,6 +33,19 @@ INSTANT = "instant"
 _SENSOR = ("accelerometer x", "accelerometer y", "accelerometer z")
 _STATE = len(CONTACT_COMPONENTS)
 
+#: Unit of each component of a contact's state.
+STATE_UNITS = {
+    "sink_rate": "m/s",
+    "pitch": "rad",
+    "roll": "rad",
+    "drift": "rad",
+    "ground_speed": "m/s",
+    "pitch_rate": "rad/s",
+    "roll_rate": "rad/s",
+    "yaw_rate": "rad/s",
+    "lift_fraction": "1",
+}
+
 
 @dataclass(frozen=True, slots=True)
 class Believed:
@@ -148,24 +161,11 @@ def channel_errors(channel: ChannelSamples, values: dict[str, float]) -> SensorE
 
 def unit_of(name: str) -> str:
     """Name the unit of a parameter: SI, g for accelerations, ``ln`` for logarithms of factors."""
-    if name in _STATE_UNITS:
-        return _STATE_UNITS[name]
+    if name in STATE_UNITS:
+        return STATE_UNITS[name]
     if name in (INSTANT, "centre_of_gravity", *_SENSOR):
         return "s" if name == INSTANT else "m"
     parameter, _, error = name.rpartition(" ")
     if error == "bias":
         return "rad" if parameter in (Parameter.PITCH, Parameter.ROLL) else "g"
     return {"scale": "1", "delay": "s", "residual_lift": "1"}.get(error, "ln")
-
-
-_STATE_UNITS = {
-    "sink_rate": "m/s",
-    "pitch": "rad",
-    "roll": "rad",
-    "drift": "rad",
-    "ground_speed": "m/s",
-    "pitch_rate": "rad/s",
-    "roll_rate": "rad/s",
-    "yaw_rate": "rad/s",
-    "lift_fraction": "1",
-}

@@ -4,7 +4,6 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
 
 from solver.arrays import Array
 from solver.flight_data.alignment import Series, best
@@ -18,12 +17,12 @@ from solver.flight_data.contacts import (
 )
 from solver.flight_data.datum import Datum, normal_datum
 from solver.flight_data.geometry import Geometry, Place
-from solver.flight_data.onset import Indicator, indicator
+from solver.flight_data.onset import Indicator, blurred, indicator
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.smoothing import SETTLING, smooth_window
 from solver.flight_data.sufficiency import Shortcoming, UndeterminedError, check_gaps
 from solver.flight_data.touchdown import Courses
-from solver.flight_data.undisturbed import IMPACT, SPIN_UP_PULL, shock_evidence
+from solver.flight_data.undisturbed import IMPACT, SPIN_UP_PULL, Shock, shock_evidence
 from solver.flight_data.vote import Vote, first_time_down, switch_indicator, vote
 from solver.flight_data.wheels import lowest_course
 from solver.flight_data.window import Window
@@ -33,6 +32,9 @@ _HEIGHT_SD = 0.1
 
 #: Seconds before the range of times that show how the aircraft flew.
 _HISTORY = 5.0
+
+#: What the shape of a shock leaves open of its onset, in sampling intervals.
+_SHAPE = 0.1
 
 #: Chance that a shock shows something else.
 _DOUBT = 0.003
@@ -48,13 +50,16 @@ _AROUND = (0.3, 0.25)
 
 #: Power of the likelihoods: those of models that are not quite right are too sure of themselves
 #: (tempering; P. D. Gruenwald, T. van Ommen, Bayesian Analysis 12 (2017) 1069).
-_TEMPER = 0.5
+_TEMPER = 0.45
 
 #: Less likely hypotheses are left out.
 _LEAST_CHANCE = 0.003
 
 #: A guess farther off than this is made good and the height smoothed again [s].
 _ROUGH = 0.4
+
+#: Wheels that are so many standard deviations above the runway do not touch it.
+_OFF_GROUND = 4.0
 
 #: Before and after the guess in which the first contact is sought [s].
 _SOUGHT = (3.5, 2.0)
@@ -128,25 +133,25 @@ def _weighed(
             peak = float(grid[start + int(np.argmax(total[start:end]))])
             found.append(Hypothesis(_timed(window, grid, height, shocks, peak), chance))
     found.sort(key=lambda each: -each.chance)
+    likeliest = found[0].contact.time
+    if np.interp(likeliest, grid, height[1]) > _OFF_GROUND * np.interp(likeliest, grid, height[2]):
+        raise UndeterminedError(_NO_CONTACT)
     sum_of_chances = sum(each.chance for each in found)
     return tuple(replace(each, chance=each.chance / sum_of_chances) for each in found), datum
 
 
 def _shocks(window: Window, normal: Series, grid: Array) -> list[tuple[str, Array]]:
-    found = [(ONSET, _blurred(normal, shock_evidence(normal, grid, IMPACT, _HISTORY)))]
+    """Evidence of each acceleration, with what shifts its onset besides noise."""
+
+    def evidence(series: Series, shock: Shock) -> Array:
+        shift = float(np.hypot(series.entry.delay_scatter.value, _SHAPE * series.interval))
+        return blurred(shock_evidence(series, grid, shock, _HISTORY), grid, shift)
+
+    found = [(ONSET, evidence(normal, IMPACT))]
     drag = best(window, Parameter.LONGITUDINAL_ACCELERATION)
     if drag is not None and drag.channel.rate >= 4:
-        log = shock_evidence(drag, grid, SPIN_UP_PULL, _HISTORY)
-        found.append((SPIN_UP, _blurred(drag, log)))
+        found.append((SPIN_UP, evidence(drag, SPIN_UP_PULL)))
     return found
-
-
-def _blurred(series: Series, log: Array) -> Array:
-    """Add what shifts the onset of a channel besides noise: its delay, the shape of the shock."""
-    sd = float(np.hypot(series.entry.delay_scatter.value, 0.1 * series.interval))
-    top = log.max()
-    spread = gaussian_filter1d(np.exp(log - top), sd / _STEP, mode="nearest")
-    return np.asarray(np.log(spread + 1e-300) + top)
 
 
 def _doubted(log: Array) -> Array:

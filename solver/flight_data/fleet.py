@@ -50,6 +50,14 @@ class SyntheticLanding:
             until = max(until, np.inf if stay.end is None else stay.end)
         return tuple(times)
 
+    def main_gears_again(self, geometry: Geometry) -> tuple[float, ...]:
+        """List when any main gear comes down again, whether others had stayed down or not [s]."""
+        times: list[float] = []
+        for wheel in geometry.mains:
+            stays = [c.start for c in self.history.contacts if c.gear == wheel.gear]
+            times += sorted(stays)[1:]
+        return tuple(sorted(times))
+
     def nose_contact(self, geometry: Geometry) -> float | None:
         """Time of the first contact of the nose wheel [s]."""
         noses = {wheel.gear for wheel in geometry.of(Place.NOSE)}

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 
 from solver.arrays import Array
 from solver.flight_data.alignment import Series
@@ -130,12 +131,13 @@ def _posterior(
 
 
 def blurred(log_likelihood: Array, grid: Array, sd: float) -> Array:
-    """Log likelihood after an independent Gaussian error of the time itself."""
+    """Log likelihood after an independent Gaussian error of the time itself; the grid is even."""
     if sd <= 0:
         return log_likelihood
-    weight = np.exp(log_likelihood - log_likelihood.max())
-    kernel = np.exp(-0.5 * ((grid[:, None] - grid[None, :]) / sd) ** 2)
-    return np.asarray(np.log(kernel @ weight + 1e-300))
+    top = log_likelihood.max()
+    step = float(grid[1] - grid[0])
+    spread = gaussian_filter1d(np.exp(log_likelihood - top), sd / step, mode="nearest")
+    return np.asarray(np.log(spread + 1e-300) + top)
 
 
 def indicator(name: str, grid: Array, log_likelihood: Array) -> Indicator:

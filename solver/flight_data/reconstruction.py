@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from solver.flight_data.alignment import Series, best
+from solver.flight_data.ambiguity import widened, widened_state
 from solver.flight_data.bounces import later_contacts
 from solver.flight_data.contacts import ContactKind, ContactTime
 from solver.flight_data.datum import Datum
@@ -13,9 +14,15 @@ from solver.flight_data.geometry import Geometry
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.smoothing import smooth_window, touching_wheels
 from solver.flight_data.sufficiency import Shortcoming, UndeterminedError, check_gaps, shortcomings
-from solver.flight_data.touchdown import Courses, TouchdownState, touchdown_state
+from solver.flight_data.touchdown import Courses, Estimate, TouchdownState, touchdown_state
 from solver.flight_data.wheels import wheel_course
 from solver.flight_data.window import Window
+
+#: Hypotheses of the first contact that are less likely are not followed up.
+_NEGLIGIBLE = 0.01
+
+#: Contacts of two hypotheses that are closer than this may be the same one [s].
+_SAME = 0.4
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +35,7 @@ class FoundContact:
     gear: str  #: whose wheels were lowest
     timing: ContactTime
     state: TouchdownState
+    chance: float = 1.0  #: that there was such a contact; a bounce may be none
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,12 +74,21 @@ def reconstruct(window: Window, geometry: Geometry) -> Reconstruction:
 
 def _reconstructed(window: Window, normal: Series, geometry: Geometry) -> Reconstruction:
     hypotheses, datum = first_contact(window, normal, geometry)
-    first = hypotheses[0].contact
-    spread = sum(
-        each.chance * (each.contact.sd**2 + (each.contact.time - first.time) ** 2)
-        for each in hypotheses
-    )
-    check_gaps(window, first.time)
+    check_gaps(window, hypotheses[0].contact.time)
+    courses, found = _followed(window, normal, geometry, datum, hypotheses[0].contact)
+    others = [
+        (each.chance, _followed(window, normal, geometry, datum, each.contact)[1])
+        for each in hypotheses[1:]
+        if each.chance > _NEGLIGIBLE
+    ]
+    notes = () if datum.found else ("no rolling in the window: normal acceleration not zeroed",)
+    return Reconstruction(_widened(found, others), (), courses, datum, notes)
+
+
+def _followed(
+    window: Window, normal: Series, geometry: Geometry, datum: Datum, first: ContactTime
+) -> tuple[Courses, tuple[FoundContact, ...]]:
+    """Courses and contacts that follow from one time of the first contact."""
     # The later contacts are timed by a height that is tied to the first one only: tied to
     # themselves they would bear themselves out.
     courses = smooth_window(window, normal, geometry, [first], datum)
@@ -81,10 +98,42 @@ def _reconstructed(window: Window, normal: Series, geometry: Geometry) -> Recons
     contacts = [first, *later_contacts(window, normal, courses, geometry, first)]
     if len(contacts) > 1:
         courses = smooth_window(window, normal, geometry, contacts, datum)
-    found = [_found(contact, courses, geometry) for contact in contacts]
-    found[0] = replace(found[0], time_sd=float(np.sqrt(spread)))
-    notes = () if datum.found else ("no rolling in the window: normal acceleration not zeroed",)
-    return Reconstruction(tuple(found), (), courses, datum, notes)
+    return courses, tuple(_found(contact, courses, geometry) for contact in contacts)
+
+
+def _widened(
+    found: tuple[FoundContact, ...], others: list[tuple[float, tuple[FoundContact, ...]]]
+) -> tuple[FoundContact, ...]:
+    """Let what other times of the first contact lead to widen the deviations of each contact."""
+    contacts = []
+    for contact in found:
+        same = [
+            (chance, match)
+            for chance, other in others
+            if (match := _counterpart(contact, found[0], other)) is not None
+        ]
+        time = widened(
+            Estimate(contact.time, contact.time_sd),
+            [(chance, Estimate(match.time, match.time_sd)) for chance, match in same],
+        )
+        state = widened_state(contact.state, [(chance, match.state) for chance, match in same])
+        contacts.append(replace(contact, time_sd=time.sd, state=state))
+    return tuple(contacts)
+
+
+def _counterpart(
+    contact: FoundContact, first: FoundContact, other: tuple[FoundContact, ...]
+) -> FoundContact | None:
+    """Contact that would be this one if another hypothesis of the first contact held."""
+    if contact is first:
+        return other[0]
+    near = [each for each in other if abs(each.time - contact.time) < _SAME]
+    alike = near if contact.kind is not ContactKind.DEROTATION else other
+    return min(
+        (each for each in alike if each.kind is contact.kind),
+        key=lambda each: abs(each.time - contact.time),
+        default=None,
+    )
 
 
 def _found(contact: ContactTime, courses: Courses, geometry: Geometry) -> FoundContact:
@@ -94,4 +143,6 @@ def _found(contact: ContactTime, courses: Courses, geometry: Geometry) -> FoundC
         key=lambda wheel: float(wheel_course(courses, geometry, wheel, at)[0][0]),
     )
     state = touchdown_state(courses, geometry, contact.time, contact.sd)
-    return FoundContact(contact.kind, contact.time, contact.sd, lowest.gear, contact, state)
+    return FoundContact(
+        contact.kind, contact.time, contact.sd, lowest.gear, contact, state, contact.chance
+    )

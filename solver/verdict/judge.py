@@ -86,7 +86,7 @@ def judge(
     return tuple(sorted(found, key=lambda reason: -SEVERITY[reason.verdict]))
 
 
-def _graded(definition: AircraftDefinition, mass: float, utilisation: float) -> Verdict:
+def graded(definition: AircraftDefinition, mass: float, utilisation: float) -> Verdict:
     """Verdict that a utilisation gives; above the landing mass the lower thresholds come down."""
     thresholds = definition.verdict
     factor = thresholds.overweight_factor if is_overweight(definition, mass) else 1.0
@@ -104,7 +104,7 @@ def _airframe(
 ) -> Iterator[Reason]:
     if worst is None:
         return
-    verdict = _graded(definition, mass, worst.utilisation)
+    verdict = graded(definition, mass, worst.utilisation)
     yield Reason(
         code="airframe_limit_exceeded" if verdict is Verdict.HARD else "airframe_stress",
         text=(
@@ -120,7 +120,7 @@ def _gears(
 ) -> Iterator[Reason]:
     by_name = {gear.name: gear for gear in definition.gears}
     for load in loads:
-        verdict = _graded(definition, mass, load.utilisation)
+        verdict = graded(definition, mass, load.utilisation)
         if verdict is not Verdict.NORMAL:
             yield Reason(
                 code="gear_limit_exceeded" if verdict is Verdict.HARD else "gear_load",

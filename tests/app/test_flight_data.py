@@ -132,6 +132,27 @@ class TestPost:
             assert findings[f"{axis} load factor"]["value"] > least
             assert findings[f"{axis} load factor"]["status"] in ("passed", "exceeded")
 
+    def test_the_peak_of_a_nose_that_comes_down_late_belongs_to_the_last_contact(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        found = post(service, long_form(landing.window), frame=FRAME).json()["contacts"]
+        (nose,) = [c["time_s"] for c in found if c["kind"] == "derotation"]
+        landed = [c["time_s"] for c in found if c["kind"] in ("first", "bounce")]
+
+        def struck(channel: Channel) -> Channel:
+            if channel.parameter is not Parameter.NORMAL_ACCELERATION:
+                return channel
+            value = channel.value.copy()
+            value[np.argmin(np.abs(channel.time - (max(nose, landed[-1]) + 0.5)))] = 2.9
+            return replace(channel, value=value)
+
+        window = replace(landing.window, channels=tuple(map(struck, landing.window.channels)))
+        answer = post(service, long_form(window), frame=FRAME).json()
+        record = service.get(answer["links"]["landing"]).json()["record"]
+        peaks = [contact["nz_peak"]["value"] for contact in record["contacts"]]
+        assert peaks[-1] == pytest.approx(2.9)
+        assert max(peaks[:-1], default=0.0) < 2.9
+
     def test_the_same_file_is_the_same_landing(
         self, service: Service, landing: SyntheticLanding
     ) -> None:

@@ -2,6 +2,7 @@
 
 import shutil
 import signal
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -37,6 +38,7 @@ def serving(
         hard_time_limit=7.0,
         soft_time_limit=5.0,
         sweep_interval=0.3,
+        makes_envelopes=False,
     )
     upgrade(settings)
     secret = create_key(settings, operator="alpha", scopes=("post", "read"))
@@ -114,6 +116,37 @@ class TestSupervisor:
                 program.process.wait()
             program.due = 0.0
         assert [line.split(" in ")[-1] for line in said] == ["0.5 s", "1 s", "2 s"]
+
+    def test_a_program_that_is_done_is_not_started_again(self) -> None:
+        program = Program("brief", ["true"], is_once=True)
+        supervisor = Supervisor([program], say=pytest.fail)
+        supervisor._tend(program)
+        assert program.process is not None
+        program.process.wait()
+        for _ in range(2):
+            supervisor._tend(program)
+            assert program.process is None
+
+    def test_one_that_failed_is(self) -> None:
+        said: list[str] = []
+        program = Program("brief", ["false"], is_once=True)
+        supervisor = Supervisor([program], say=said.append)
+        supervisor._tend(program)
+        assert program.process is not None
+        program.process.wait()
+        supervisor._tend(program)
+        assert "starting it again" in said[0]
+
+    def test_a_program_waits_until_it_may_start(self) -> None:
+        may_start = threading.Event()
+        program = Program("late", ["true"], may_start=may_start)
+        supervisor = Supervisor([program], say=lambda _: None)
+        supervisor._tend(program)
+        assert program.process is None
+        may_start.set()
+        supervisor._tend(program)
+        assert program.process is not None
+        program.process.wait()
 
     def test_a_program_that_will_not_end_is_killed(
         self, monkeypatch: pytest.MonkeyPatch, tmp_path: Path

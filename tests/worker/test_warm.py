@@ -16,6 +16,7 @@ from numba.core.dispatcher import Dispatcher
 from app.fleet.registry import AircraftRegistry
 from solver.assessment import TouchdownRecord
 from solver.landing.contact import Contact, Lift
+from solver.landing.contact_uncertainty import ContactUncertainty
 from worker.solve import solve
 from worker.warm import Models
 
@@ -35,9 +36,12 @@ bounced = (
     Contact(sink_rate=2.0, ground_speed=55.0, pitch=0.02, roll=-0.04, drift=0.03, roll_rate=0.03),
     Contact(sink_rate=1.0, ground_speed=50.0, pitch=-0.02, lift=Lift(model="held")),
 )
-assessment = solve(models.get("mini"), TouchdownRecord("mini", bounced))
+known = ContactUncertainty.independent(sink_rate=0.3, roll=0.02)
+record = TouchdownRecord("mini", bounced, uncertainties=(known, known))
+assessment = solve(models.get("mini"), record)
 print(json.dumps({
     "verdict": assessment.verdict,
+    "samples": assessment.limit_probability.samples,
     "before": sum(before.values()),
     "added": {name: count for name, count in compiled().items() if count != before.get(name)},
 }))
@@ -57,5 +61,6 @@ def test_an_assessment_after_the_warm_up_compiles_nothing(
     )
     found = json.loads(done.stdout.splitlines()[-1])
     assert found["verdict"] in ("NORMAL", "FIRM", "INSPECT", "HARD")
+    assert found["samples"] > 0
     assert found["before"] > 20
     assert found["added"] == {}

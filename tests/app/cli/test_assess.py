@@ -1,6 +1,7 @@
 """`hardlanding assess`: the same record and the same answer as through the service."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ runner = CliRunner()
 @pytest.fixture(autouse=True)
 def _cached(cache_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HL_CACHE_DIR", str(cache_folder))
+    monkeypatch.setenv("HL_PROPAGATE_UNCERTAINTY", "false")
     get_settings.cache_clear()
 
 
@@ -39,6 +41,16 @@ def test_json_on_standard_output_is_the_whole_answer(tmp_path: Path, aircraft_fo
     assert len(answer["gear_loads"]) == 3
     assert answer["equilibrium_residual"] < 1e-8
     assert "Advisory only" in answer["advisory"]
+
+
+def test_a_soft_landing_has_its_probability(
+    tmp_path: Path, aircraft_folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("HL_PROPAGATE_UNCERTAINTY", "true")
+    get_settings.cache_clear()
+    answer = json.loads(assess(tmp_path, aircraft_folder, record(3.0), "--json").stdout)
+    assert answer["probability_limit_exceeded"] == 0.0
+    assert answer["limit_probability"]["basis"] == "corners"
 
 
 def test_the_same_record_gives_the_same_answer_to_the_last_digit(
@@ -85,7 +97,8 @@ def test_the_worst_of_several_contacts_gives_the_verdict(
 
     def assessed(*sink_rates: float) -> Any:
         document = record() | {"contacts": [contact(rate) for rate in sink_rates]}
-        return assess_landing(model, take_in(parse_record(document), definition).record)
+        landing = take_in(parse_record(document), definition).record
+        return assess_landing(model, replace(landing, uncertainties=()))
 
     soft, hard, both = assessed(2.0), assessed(11.0), assessed(2.0, 11.0)
     assert both.verdict is hard.verdict

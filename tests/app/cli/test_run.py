@@ -22,6 +22,7 @@ def test_run_shows_the_demo_verdicts_and_stays_up(
         **os.environ,
         "HL_VAR": str(tmp_path / "var"),
         "HL_CACHE_DIR": str(KEPT_CACHE),
+        "HL_MAKES_ENVELOPES": "false",
         "COLUMNS": "200",
     }
     command = [sys.executable, "-m", "app.cli.main", "run", "--port", str(free_port())]
