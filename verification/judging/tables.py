@@ -177,7 +177,7 @@ def knowledge_table(knowledge: Sequence[Knowledge]) -> Table:
             percent(each.error_sd),
             with_interval(each.wrong_calls),
             with_interval(each.misses),
-            f"{each.area:.3f}",
+            f"{each.area:.3f}" if np.isfinite(each.area) else "–",
         )
         for each in knowledge
     ]
