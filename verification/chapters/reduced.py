@@ -217,7 +217,7 @@ def _drawn_section(drawn: list[DrawnLanding], quick: bool) -> tuple[Text, Table,
             tolerance,
             "",
             "full-order integration of the same loads, in the limit of small steps",
-            "a hundredth of a mildly stressed element's peak decides nothing; the aim is half of that",
+            "a hundredth of so mild a stress decides nothing; the aim is half of that",
             scale=1.0,
         )
         for number, landing in enumerate(drawn, start=1)
