@@ -163,14 +163,13 @@ def component_table(flown: list[Flown]) -> list[dict[str, float | str]]:
     rows: list[dict[str, float | str]] = []
     for index, name in enumerate(CONTACT_COMPONENTS):
         row: dict[str, float | str] = {"component": name}
-        for label, which, covariance in (
-            ("before", 0, lambda u: u.prior_uncertainty),
-            ("after", 1, lambda u: u.uncertainty),
-        ):
+        for label, which in (("before", 0), ("after", 1)):
             errors = np.array([each.errors[which][index] for each in those])
-            sds = np.array(
-                [np.sqrt(covariance(each.update).matrix[index, index]) for each in those]
-            )
+            known = [
+                each.update.uncertainty if which else each.update.prior_uncertainty
+                for each in those
+            ]
+            sds = np.array([np.sqrt(each.matrix[index, index]) for each in known])
             row[f"rms_{label}"] = float(np.sqrt(np.mean(errors**2)))
             row[f"sd_{label}"] = float(np.mean(sds))
             row[f"squared_{label}"] = float(np.mean((errors / sds) ** 2))

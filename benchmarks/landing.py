@@ -147,12 +147,12 @@ def reduced_parts(
     def response_to_loads() -> tuple[np.ndarray, np.ndarray, float]:
         unit_loads = np.hstack([reduced.applied, loading.inertia]).astype(np.float32)
         shapes = unit_loads.T @ loading.modes_with_rigid
-        return add_modal_response(
-            step,
-            lambda first, last, out: np.matmul(amplitudes[first:last], shapes, out=out),
-            np.zeros((len(amplitudes), reduced.size), dtype=np.float32),
-            at,
-        )
+
+        def load(first: int, last: int, out: np.ndarray) -> None:
+            np.matmul(amplitudes[first:last], shapes, out=out)
+
+        motion = np.zeros((len(amplitudes), reduced.size), dtype=np.float32)
+        return add_modal_response(step, load, motion, at)
 
     (moved, moving, size), recursion = measured(response_to_loads)
     coefficients, limit = motion.rate_coefficients().T[:, at], NEGLIGIBLE * SWEEP_TOLERANCE * size
@@ -206,7 +206,7 @@ def one_by_one_and_together(
     """
     random, aircraft = np.random.default_rng(7), airframe.landing_aircraft(factors)
     limited = SimulationOptions(time_limit=1.0, stop_when_settled=False)
-    contacts = []
+    contacts: list[Contact] = []
     while len(contacts) < count:
         contact = random_contact(random)
         try:

@@ -4,7 +4,6 @@ import json
 import statistics
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from itertools import cycle
 from multiprocessing import get_context
 from pathlib import Path
@@ -35,10 +34,7 @@ def solver_rate(model: AssessmentModel, seconds: float) -> tuple[float, float]:
         kinds = [landing(model.name, number, "alone") for number in range(KINDS)]
         fleet = {model.name: model.airframe.definition}
         taken = [
-            replace(
-                inputs.from_json(arrivals.check(parse_record(kind), _NOBODY, fleet).inputs),
-                uncertainties=(),  # as the service under measurement does it
-            )
+            inputs.from_json(arrivals.check(parse_record(kind), _NOBODY, fleet).inputs)
             for kind in kinds
         ]
         assess_landing(model, taken[0])

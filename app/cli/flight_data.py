@@ -15,6 +15,7 @@ from app.cli.progress import progress_bars
 from app.config import get_settings
 from app.flight_data.intake import recorded_mass
 from solver.assimilation.assimilate import Assimilation, assimilate, uncorrected
+from solver.assimilation.parameters import ServiceScatter
 from solver.errors import FlightDataError, RecordError, SolverError
 from solver.flight_data.frame import RecorderFrame
 from solver.flight_data.frame_file import packaged_frame, read_frame
@@ -60,12 +61,12 @@ def flight_data(
         refuse(f"{file}: {error}", error)
     except (SolverError, OSError) as error:
         refuse(str(error), error)
-    geometry = point_geometry() if simulated is None else aircraft_geometry(simulated)
+    geometry = point_geometry() if simulated is None else aircraft_geometry(simulated[0])
     found = reconstruct(window, geometry)
     responses = (
         uncorrected(found, "no --aircraft to simulate")
         if simulated is None
-        else assimilate(window, found, simulated, geometry)
+        else assimilate(window, found, simulated[0], geometry, scatter=simulated[1])
     )
     if plot is not None:
         _draw(plot, window, found)
@@ -84,7 +85,10 @@ def _frame(name: str | None) -> RecorderFrame | None:
     return read_frame(path) if path.suffix == ".toml" else packaged_frame(name)
 
 
-def _aircraft(aircraft: str | None, window: Window) -> LandingAircraft | None:
+def _aircraft(
+    aircraft: str | None, window: Window
+) -> tuple[LandingAircraft, ServiceScatter] | None:
+    """Aircraft in the loading of the window, and how much one in service may differ from it."""
     if aircraft is None:
         return None
     from solver.aircraft.airframe import load_airframe
@@ -95,7 +99,8 @@ def _aircraft(aircraft: str | None, window: Window) -> LandingAircraft | None:
     with progress_bars() as progress:
         airframe = load_airframe(folder, progress)
     loading = airframe.loading_for(mass=recorded_mass(window), fuel={}, payload={})
-    return airframe.landing_aircraft(loading.factors)
+    scatter = ServiceScatter.stated(airframe.definition.scatter)
+    return airframe.landing_aircraft(loading.factors), scatter
 
 
 def _draw(path: Path, window: Window, found: Reconstruction) -> None:

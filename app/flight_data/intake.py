@@ -18,6 +18,7 @@ from solver.assimilation.assimilate import (
     assimilate,
     uncorrected,
 )
+from solver.assimilation.parameters import ServiceScatter
 from solver.assimilation.state import STATE_UNITS
 from solver.errors import FlightDataError, ModelError, SolverError
 from solver.flight_data.frame_file import frame_names, packaged_frame
@@ -103,7 +104,8 @@ def _responses(
         # A mass that no loading has is refused with the record, a broken mesh shows in its job.
         note = Note("response_not_compared", f"recorded responses are not compared: {error}")
         return uncorrected(found, str(error)), (note,)
-    return assimilate(window, found, simulated, geometry), ()
+    scatter = ServiceScatter.stated(aircraft.definition.scatter)
+    return assimilate(window, found, simulated, geometry, scatter=scatter), ()
 
 
 def recorded_mass(window: Window) -> float | None:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from solver.aircraft.scatter import Scatter
 from solver.arrays import Array
 from solver.gear.parameters import Gear
 from solver.landing.aircraft import LandingAircraft
@@ -37,6 +38,19 @@ class ServiceScatter:
     decay_start: float = 0.25  #: when the spoilers come out
     decay_time: float = 0.25
     residual_lift: float = 0.08  #: lift over weight, a standard deviation of its own
+
+    @classmethod
+    def stated(cls, scatter: Scatter) -> "ServiceScatter":
+        """Scatter that an aircraft's definition states, struts alike in their oil."""
+        return cls(
+            gas_pressure=scatter.gas_pressure,
+            orifice=scatter.strut_damping,
+            tyre_stiffness=scatter.tyre_stiffness,
+            tyre_friction=scatter.tyre_friction,
+            decay_start=scatter.lift_decay_start / Lift().decay_start,
+            decay_time=scatter.lift_decay_time,
+            residual_lift=scatter.residual_lift_fraction,
+        )
 
 
 #: Names of the parameters of the aircraft and its lift besides one gas pressure for each strut.

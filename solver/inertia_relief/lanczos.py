@@ -23,8 +23,9 @@ WIDTH = 8
 TOLERANCE = 1e-9
 #: Blocks between one look at the residuals and the next.
 _LOOK = 8
-#: Vectors that the iteration may take for each mode wanted.
-_LONGEST = 8
+#: Vectors that the iteration may take for each mode wanted, and for some more: the last of few
+#: modes need the same start as the last of many.
+_LONGEST, _MORE = 8, 20
 #: Below this size the matrices are taken whole.
 _DENSE = 1500
 
@@ -56,13 +57,13 @@ def largest_modes(
         The iteration does not converge.
     """
     size = mass.shape[0]
-    if size <= max(_DENSE, _LONGEST * count):
+    if size <= max(_DENSE, _LONGEST * (count + _MORE)):
         values, vectors = eigh(
             mass.toarray(), matrix.toarray(), subset_by_index=[size - count, size - 1]
         )
         values, vectors = values[::-1], vectors[:, ::-1]
         return values, vectors / np.sqrt(values)  # from A-orthonormal
-    longest = -(-_LONGEST * count // WIDTH)
+    longest = -(-_LONGEST * (count + _MORE) // WIDTH)
     # column after column; pages that are never reached take no memory
     basis = np.empty((size, WIDTH * (longest + 1)), order="F")
     projected = np.zeros((WIDTH * longest,) * 2)

@@ -127,8 +127,8 @@ class TestService:
     def test_an_aircraft_without_a_rule(
         self, service: Service, monkeypatch: pytest.MonkeyPatch
     ) -> None:
-        def without(model: AssessmentModel, landing: TouchdownRecord) -> Assessment:
-            return solve(dataclasses.replace(model, makers_rule=None), landing)
+        def without(model: AssessmentModel, landing: TouchdownRecord, **how: Any) -> Assessment:
+            return solve(dataclasses.replace(model, makers_rule=None), landing, **how)
 
         monkeypatch.setattr(worker.work, "solve", without)
         result = service.assessed(record(contacts=[complete(3.0)]))["result"]

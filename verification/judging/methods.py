@@ -11,6 +11,7 @@ import numpy as np
 from solver.assess import AssessmentModel, assess_landing
 from solver.assessment import RuleStatus, TouchdownRecord, Verdict
 from solver.assimilation.assimilate import FOLLOWING, Assimilation, assimilate, contact_of
+from solver.assimilation.parameters import ServiceScatter
 from solver.errors import SolverError
 from solver.flight_data.geometry import Geometry, Installation, geometry_on_gears
 from solver.flight_data.parameter import Parameter
@@ -144,7 +145,8 @@ def answer(
         is_clear = max(used) < CLEARLY_SOUND or min(used) > CLEARLY_HARD
         if is_clear and drawn.number % CHECKED:
             return answers
-        updated = assimilate(window, found, aircraft, geometry)
+        scatter = ServiceScatter.stated(model.airframe.definition.scatter)
+        updated = assimilate(window, found, aircraft, geometry, scatter=scatter)
         return _with_assimilation(model, flown, answers, record, updated)
     except SolverError as error:
         return replace(answers, undetermined=type(error).__name__)

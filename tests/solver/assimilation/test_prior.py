@@ -1,10 +1,12 @@
 """Parameters of a contact: what each changes, and their joint prior."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from solver.aircraft.definition_reader import load_definition
 from solver.assimilation.model_error import ModelError, acceleration_error, turned
 from solver.assimilation.parameters import (
     ServiceScatter,
@@ -144,3 +146,11 @@ def test_without_normal_acceleration_there_is_nothing_to_compare(
     kept = tuple(c for c in window.channels if c.parameter is not Parameter.NORMAL_ACCELERATION)
     found = response_after(replace(window, channels=kept), 0.0, 0.1, 0.8, None, ModelError())
     assert found is None
+
+
+def test_an_aircraft_that_states_no_scatter_has_the_usual_one(aircraft_folder: Path) -> None:
+    """Two rooms name the usual scatter, a definition file and an estimate without one."""
+    stated = ServiceScatter.stated(load_definition(aircraft_folder / "mini").scatter)
+    usual = ServiceScatter()
+    for field in fields(ServiceScatter):
+        assert getattr(stated, field.name) == pytest.approx(getattr(usual, field.name))
