@@ -6,7 +6,7 @@ finding never lowers a verdict, and what cannot be told is UNDETERMINED, never N
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 
 from solver.aircraft.definition import AircraftDefinition
 from solver.assessment import (
@@ -18,7 +18,7 @@ from solver.assessment import (
     TouchdownRecord,
     Verdict,
 )
-from solver.landing.history import LandingHistory, Outcome
+from solver.landing.history import GroundContact, LandingHistory, Outcome
 
 #: Rising order; HARD outranks UNDETERMINED because what is known already grounds the aircraft.
 SEVERITY = {
@@ -29,6 +29,9 @@ SEVERITY = {
     Verdict.HARD: 4,
 }
 
+
+#: Time between samples of gear switches [s].
+SWITCH_SAMPLING = 0.25
 
 #: Share by which a mass may pass the limit and still be on it: records and fills are rounded.
 MASS_ROUNDING = 1e-4
@@ -192,18 +195,14 @@ def _conditions(
     thresholds = definition.verdict
     positions = {gear.name: gear.position for gear in definition.gears}
     for number, (contact, history) in enumerate(zip(record.contacts, histories, strict=True), 1):
-        first = min(history.contacts, key=lambda stay: stay.start, default=None)
-        mains = [c.start for c in history.contacts if positions[c.gear] == "main"]
-        if (
-            first is not None
-            and positions[first.gear] == "nose"
-            and first.start < min(mains, default=math.inf)
-        ):
+        switches = {each.nose_first for each in record.recorded if each.simulated == number - 1}
+        nose = _nose_first(positions, history, switches)
+        if nose is not None:
             yield Reason(
                 code="nose_first",
                 text=(
                     f"contact {number}: the nose gear touched first, at "
-                    f"{first.closure_speed:.2f} m/s; inspect the nose gear and its attachment"
+                    f"{nose.closure_speed:.2f} m/s; inspect the nose gear and its attachment"
                 ),
                 verdict=thresholds.nose_first,
             )
@@ -228,6 +227,32 @@ def _conditions(
             ),
             verdict=Verdict.NORMAL,
         )
+
+
+def _nose_first(
+    positions: Mapping[str, str], history: LandingHistory, switches: Set[bool | None]
+) -> GroundContact | None:
+    """Touchdown of a nose gear that came down before the mains.
+
+    Near the attitude of three wheels a small error of pitch decides which one the simulation brings
+    down first.  Switches that showed the nose wheel first are believed; where they showed a main
+    wheel first, the simulated nose counts if it leads by more than their sampling.
+    """
+    first = {
+        place: min(
+            (stay for stay in history.contacts if positions[stay.gear] == place),
+            key=lambda stay: stay.start,
+            default=None,
+        )
+        for place in ("nose", "main")
+    }
+    nose, main = first["nose"], first["main"]
+    if nose is None:
+        return None
+    lead = math.inf if main is None else main.start - nose.start
+    if True in switches:
+        return nose
+    return nose if lead > (SWITCH_SAMPLING if False in switches else 0.0) else None
 
 
 def _struck_nose(

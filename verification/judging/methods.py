@@ -13,6 +13,7 @@ from solver.assessment import RuleStatus, TouchdownRecord, Verdict
 from solver.assimilation.assimilate import FOLLOWING, Assimilation, assimilate, contact_of
 from solver.assimilation.parameters import ServiceScatter
 from solver.errors import SolverError
+from solver.flight_data.contacts import ContactKind
 from solver.flight_data.geometry import Geometry, Installation, geometry_on_gears
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import reconstruct
@@ -131,6 +132,10 @@ def answer(
         mass=mass,
         mass_deviation=MASS_DEVIATION * mass,
         centre_of_gravity_deviation=geometry.centre_of_gravity_sd,
+        recorded=tuple(
+            RecordedContact(nose_first=each.kind is ContactKind.NOSE_FIRST, simulated=place)
+            for place, each in enumerate(landed)
+        ),
     )
     try:
         assessment = assess_landing(model, record)

@@ -25,6 +25,7 @@ from solver.landing.history import (
     LandingHistory,
     Outcome,
 )
+from solver.recorded import RecordedContact
 from solver.verdict.judge import judge, severest
 from tests.solver.aircraft.mini import write_mini_aircraft
 
@@ -106,12 +107,14 @@ def verdict_of(
     mass: float = 11_000.0,
     missing: tuple[str, ...] = (),
     unexplained: tuple[str, ...] = (),
+    recorded: tuple[RecordedContact, ...] = (),
 ) -> tuple[Verdict, set[str]]:
     record = TouchdownRecord(
         aircraft=definition.name,
         contacts=(contact,),
         missing=missing,
         unexplained=unexplained,
+        recorded=recorded,
     )
     reasons = judge(definition, record, mass, [landing], loads, spot(utilisation))
     return severest(reasons), {reason.code for reason in reasons}
@@ -188,6 +191,24 @@ class TestContactConditions:
         self, definition: AircraftDefinition
     ) -> None:
         assert "nose_first" in verdict_of(definition, landing=history(("nose", 0.0)))[1]
+
+    @pytest.mark.parametrize(
+        ("switches", "lead", "named"),
+        [
+            (None, 0.02, True),
+            (False, 0.02, False),  # three wheels together: the switches know which was first
+            (False, 0.5, True),  # too long for switches to have missed
+            (True, 0.02, True),
+            (True, -0.3, True),
+        ],
+    )
+    def test_switches_say_which_wheel_was_first_where_the_simulation_hardly_can(
+        self, definition: AircraftDefinition, switches: bool | None, lead: float, named: bool
+    ) -> None:
+        landing = history(("nose", 1.0 - lead), ("main_left", 1.0), ("main_right", 1.1))
+        recorded = (RecordedContact(nose_first=switches, simulated=0),)
+        codes = verdict_of(definition, landing=landing, recorded=recorded)[1]
+        assert ("nose_first" in codes) is named
 
     def test_a_bounce_onto_the_nose_after_the_mains_is_not_nose_first(
         self, definition: AircraftDefinition
