@@ -196,7 +196,7 @@ def _conditions(
     positions = {gear.name: gear.position for gear in definition.gears}
     for number, (contact, history) in enumerate(zip(record.contacts, histories, strict=True), 1):
         switches = {each.nose_first for each in record.recorded if each.simulated == number - 1}
-        nose = _nose_first(positions, history, switches)
+        nose = _nose_first(positions, history, switches, is_first=number == 1)
         if nose is not None:
             yield Reason(
                 code="nose_first",
@@ -230,13 +230,18 @@ def _conditions(
 
 
 def _nose_first(
-    positions: Mapping[str, str], history: LandingHistory, switches: Set[bool | None]
+    positions: Mapping[str, str],
+    history: LandingHistory,
+    switches: Set[bool | None],
+    *,
+    is_first: bool,
 ) -> GroundContact | None:
     """Touchdown of a nose gear that came down before the mains.
 
     Near the attitude of three wheels a small error of pitch decides which one the simulation brings
     down first.  Switches that showed the nose wheel first are believed; where they showed a main
-    wheel first, the simulated nose counts if it leads by more than their sampling.
+    wheel first, the simulated nose counts if it leads by more than their sampling.  After the first
+    contact it may be on the ground all the while, which no simulation of a contact knows.
     """
     first = {
         place: min(
@@ -252,7 +257,9 @@ def _nose_first(
     lead = math.inf if main is None else main.start - nose.start
     if True in switches:
         return nose
-    return nose if lead > (SWITCH_SAMPLING if False in switches else 0.0) else None
+    if False in switches:
+        return nose if is_first and lead > SWITCH_SAMPLING else None
+    return nose if lead > 0.0 else None
 
 
 def _struck_nose(

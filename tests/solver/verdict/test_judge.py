@@ -210,6 +210,22 @@ class TestContactConditions:
         codes = verdict_of(definition, landing=landing, recorded=recorded)[1]
         assert ("nose_first" in codes) is named
 
+    def test_a_nose_that_stayed_down_through_a_hop_is_not_first_again(
+        self, definition: AircraftDefinition
+    ) -> None:
+        hop = history(("nose", 0.0), ("main_left", 0.6), ("main_right", 0.6))
+        for switches, named in ((False, False), (True, True), (None, True)):
+            record = TouchdownRecord(
+                aircraft=definition.name,
+                contacts=(CONTACT, CONTACT),
+                recorded=(
+                    RecordedContact(nose_first=False, simulated=0),
+                    RecordedContact(nose_first=switches, simulated=1),
+                ),
+            )
+            reasons = judge(definition, record, 11_000.0, [MAINS_FIRST, hop], (), spot(0.1))
+            assert ("nose_first" in {reason.code for reason in reasons}) is named
+
     def test_a_bounce_onto_the_nose_after_the_mains_is_not_nose_first(
         self, definition: AircraftDefinition
     ) -> None:
