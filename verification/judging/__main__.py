@@ -37,7 +37,7 @@ from verification.judging.tables import (
 from verification.run import ROOT
 
 #: Landings of the complete and of the quick form.
-COMPLETE, QUICK = 300, 10
+COMPLETE, QUICK = 160, 10
 
 PAGE, FIGURES = ROOT / "docs" / "judging.md", ROOT / "docs" / "figures" / "judging"
 
@@ -47,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m verification.judging", description=__doc__)
     parser.add_argument("--quick", action="store_true", help=f"{QUICK} landings")
     parser.add_argument("--landings", type=int, help=f"of the fleet ({COMPLETE})")
-    parser.add_argument("--seed", type=int, default=2026, help="of the fleet (2026)")
+    parser.add_argument("--seed", type=int, default=4711, help="of the fleet (4711)")
     parser.add_argument("--processes", type=int, default=2, help="landings at a time (2)")
     parser.add_argument("--docs", action="store_true", help="also write docs/judging.md")
     parser.add_argument(
