@@ -154,10 +154,9 @@ def aircraft_folder(name: str) -> Path:
     """Folder with just the aircraft that is measured with."""
     folder = VAR / "bench" / "aircraft"
     target = folder / name / name
-    if not (target / "definition.toml").exists():
-        target.parent.mkdir(parents=True, exist_ok=True)
-        write: Callable[[Path], object] = write_mini_aircraft if name == "mini" else build_bizjet
-        write(target)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    write: Callable[[Path], object] = write_mini_aircraft if name == "mini" else build_bizjet
+    write(target)  # every time: an earlier version's aircraft would be another one
     return target.parent
 
 
