@@ -24,6 +24,7 @@ def test_one_that_died_while_it_lay_idle_is_replaced(
     assert backend(engine) == first
     other = make_engine(stack.settings.sqlalchemy_url)
     with reading(other) as session:
-        session.execute(text("SELECT pg_terminate_backend(:first)"), {"first": first})
+        # waits for its end, ten seconds at most
+        session.execute(text("SELECT pg_terminate_backend(:first, 10000)"), {"first": first})
     other.dispose()
     assert backend(engine) != first
