@@ -192,6 +192,8 @@ def _keep_to_indices(connection: Any, _record: ConnectionPoolEntry) -> None:
     """
     connection.execute(
         "SET enable_sort = off; SET enable_bitmapscan = off; "
+        # Of a table that was counted while it was nearly empty it would read everything to join.
+        "SET enable_seqscan = off; SET enable_hashjoin = off; SET enable_mergejoin = off; "
         # A few sorted rows stay necessary; their fictitious costs would call the compiler.
         "SET jit = off"
     )
