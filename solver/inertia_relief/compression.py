@@ -25,6 +25,7 @@ from solver.inertia_relief.reduced_stress import (
     ReducedStress,
     group_edges,
 )
+from solver.inertia_relief.rounded_rows import rounded
 from solver.inertia_relief.stress_rows import StressRows, measure_squares
 
 #: Root mean square of what is dropped over a block's elements, relative to each one's own rows.
@@ -34,7 +35,7 @@ BEYOND_LEADING = 1.2e-2
 #: Share of the motion in landings that the directions left out may carry.
 UNMOVED = 2e-5
 #: Power of the spread by which coordinates are divided; 0 keeps them, 1 makes them alike.
-SCALING = 0.3
+SCALING = 0.5
 #: A coordinate counts as moved by at least this share of the most moved one.
 _LEAST_SPREAD = 3e-5
 #: Numbers of patterns are multiples of this, so that sums over them fill vector registers.
@@ -74,15 +75,15 @@ def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array
 def compressed(rows: StressRows, spread: Array) -> ReducedStress:
     """Compress all rows, the coordinates weighed by ``spread`` (m,), least moved first."""
     scale = ((spread / spread.max()) ** SCALING).astype(np.float32)
-    rows = StressRows(rows.shells * scale, rows.beams * scale, rows.points)
+    shells, beams = rounded(rows.shells * scale), rounded(rows.beams * scale)
     spread = spread / scale
     no_points = np.zeros((len(rows.shells), 0, 5), dtype=np.float32)
     patterns, shares, shapes, rests = [], [], [], []
     parts: list[tuple[Array, Single]] = []
-    for kind, points in ((rows.shells, no_points), (rows.beams, rows.points)):
+    for kind, points in ((shells, no_points), (beams, rows.points)):
         for start in range(0, len(kind), BLOCK):
             part = slice(start, start + BLOCK)
-            exact = kind[part].astype(np.float64)
+            exact = kind[part].exact().astype(np.float64)
             kept, leading = _leading(exact * spread, points[part])
             known = len(kept)
             share = (exact[:, :, -known:] * spread[-known:]).reshape(-1, known) @ kept
@@ -105,8 +106,10 @@ def compressed(rows: StressRows, spread: Array) -> ReducedStress:
     widest = max((len(group_edges(count, PATTERN_GROUP)) - 1 for count, *_ in shapes), default=0)
     return ReducedStress(
         scale=scale,
-        shell_rows=rows.shells,
-        beam_rows=rows.beams,
+        shell_numbers=shells.numbers,
+        shell_step=shells.step,
+        beam_numbers=beams.numbers,
+        beam_step=beams.step,
         beam_points=rows.points,
         pattern_shapes=np.array(shapes, dtype=np.int64).reshape(-1, 3),
         patterns=_joined(patterns, (0,)),

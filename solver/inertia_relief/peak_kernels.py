@@ -10,7 +10,7 @@ from typing import Any
 import numba
 import numpy as np
 
-from solver.arrays import Array, IntArray, Single
+from solver.arrays import Array, IntArray, Short, Single
 
 #: Covers the rounding of single precision in comparing a bound with a value.
 _MARGIN = np.float32(1.0001)
@@ -109,11 +109,11 @@ def _measure(
     return math.sqrt(best + s5 * s5)
 
 
-@numba.njit(**_LEAN)
-def _stress(
-    rows: Single, e: int, history: Single, one: int, two: int, points: Single
-) -> tuple[float, float]:  # pragma: no cover - compiled
-    """Von Mises stress of element ``e`` from rows (n, 6, k) and a history at two samples.
+@numba.njit(**_LEAN, inline="always")
+def _sums(
+    rows: Single | Short, e: int, history: Single, one: int, two: int
+) -> tuple[Any, ...]:  # pragma: no cover - compiled
+    """Six rows of element ``e`` of (n, 6, k) times a history at two samples.
 
     Two at a time, because rows are read once for both and each sum alone would wait on itself.
     """
@@ -121,21 +121,48 @@ def _stress(
     t0 = t1 = t2 = t3 = t4 = t5 = _ZERO
     for k in range(rows.shape[2]):
         a, b = history[one, k], history[two, k]
-        s0 += rows[e, 0, k] * a
-        s1 += rows[e, 1, k] * a
-        s2 += rows[e, 2, k] * a
-        s3 += rows[e, 3, k] * a
-        s4 += rows[e, 4, k] * a
-        s5 += rows[e, 5, k] * a
-        t0 += rows[e, 0, k] * b
-        t1 += rows[e, 1, k] * b
-        t2 += rows[e, 2, k] * b
-        t3 += rows[e, 3, k] * b
-        t4 += rows[e, 4, k] * b
-        t5 += rows[e, 5, k] * b
+        r0, r1 = np.float32(rows[e, 0, k]), np.float32(rows[e, 1, k])
+        r2, r3 = np.float32(rows[e, 2, k]), np.float32(rows[e, 3, k])
+        r4, r5 = np.float32(rows[e, 4, k]), np.float32(rows[e, 5, k])
+        s0 += r0 * a
+        s1 += r1 * a
+        s2 += r2 * a
+        s3 += r3 * a
+        s4 += r4 * a
+        s5 += r5 * a
+        t0 += r0 * b
+        t1 += r1 * b
+        t2 += r2 * b
+        t3 += r3 * b
+        t4 += r4 * b
+        t5 += r5 * b
+    return s0, s1, s2, s3, s4, s5, t0, t1, t2, t3, t4, t5
+
+
+@numba.njit(**_LEAN)
+def _stress(
+    shares: Single, e: int, patterns: Single, one: int, two: int, points: Single
+) -> tuple[float, float]:  # pragma: no cover - compiled
+    """Von Mises stress of element ``e`` from shares (n, 6, r) and patterns at two samples."""
+    s0, s1, s2, s3, s4, s5, t0, t1, t2, t3, t4, t5 = _sums(shares, e, patterns, one, two)
     return (
         _measure(s0, s1, s2, s3, s4, s5, points, e),
         _measure(t0, t1, t2, t3, t4, t5, points, e),
+    )
+
+
+@numba.njit(**_LEAN)
+def _row_stress(
+    numbers: Short, step: Single, e: int, history: Single, one: int, two: int, points: Single
+) -> tuple[float, float]:  # pragma: no cover - compiled
+    """Von Mises stress of element ``e`` from its rows and the coordinates at two samples."""
+    s0, s1, s2, s3, s4, s5, t0, t1, t2, t3, t4, t5 = _sums(numbers, e, history, one, two)
+    p0, p1, p2, p3, p4, p5 = (
+        step[e, 0], step[e, 1], step[e, 2], step[e, 3], step[e, 4], step[e, 5],
+    )  # fmt: skip
+    return (
+        _measure(p0 * s0, p1 * s1, p2 * s2, p3 * s3, p4 * s4, p5 * s5, points, e),
+        _measure(p0 * t0, p1 * t1, p2 * t2, p3 * t3, p4 * t4, p5 * t5, points, e),
     )
 
 
@@ -315,7 +342,8 @@ def gather_candidates(
 
 @numba.njit(**_STRICT)
 def evaluate_candidates(
-    operator: Single,
+    numbers: Short,
+    step: Single,
     points: Single,
     elements: IntArray,
     coordinates: Single,
@@ -330,8 +358,8 @@ def evaluate_candidates(
 
     Parameters
     ----------
-    operator : (n, 6, m) array
-        Exact stress rows [Pa].
+    numbers, step : (n, 6, m), (n, 6) arrays
+        See `RoundedRows`.
     points : (n, 8, 5) or (n, 0, 5) array
         See `gather_candidates`.
     elements : (k,) array
@@ -351,7 +379,7 @@ def evaluate_candidates(
             continue
         # the likeliest alone, then two at a time what can still be higher
         e, where = elements[k], candidates[starts[k]]
-        best: Any = _stress(operator, e, coordinates, where, where, points)[0]
+        best: Any = _row_stress(numbers, step, e, coordinates, where, where, points)[0]
         evaluated += 1
         waiting = -1
         for c in range(starts[k] + 1, starts[k + 1]):
@@ -360,7 +388,7 @@ def evaluate_candidates(
             if waiting < 0:
                 waiting = candidates[c]
                 continue
-            pair = _stress(operator, e, coordinates, waiting, candidates[c], points)
+            pair = _row_stress(numbers, step, e, coordinates, waiting, candidates[c], points)
             evaluated += 2
             if pair[0] > best:
                 best, where = pair[0], waiting
@@ -368,7 +396,7 @@ def evaluate_candidates(
                 best, where = pair[1], candidates[c]
             waiting = -1
         if waiting >= 0:
-            value: Any = _stress(operator, e, coordinates, waiting, waiting, points)[0]
+            value: Any = _row_stress(numbers, step, e, coordinates, waiting, waiting, points)[0]
             evaluated += 1
             if value > best:
                 best, where = value, waiting

@@ -21,7 +21,7 @@ LONGEST, SHORTEST = 32, 4
 LEVELS = 5
 #: Deviation from the straight line that an interval between knots may have to stay whole, share
 #: of the largest norm of coordinates; and one between samples of the grid.
-DEVIATION, GRID_DEVIATION = 0.045, 0.02
+DEVIATION, GRID_DEVIATION = 0.07, 0.03
 _ZERO = np.float32(0.0)
 _FAST = {"contract", "reassoc", "nsz"}
 

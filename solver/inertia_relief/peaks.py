@@ -148,7 +148,8 @@ class _Search:
         self._gather(plan, small, floors)
         sample = self._sample[part]
         self._evaluated += evaluate_candidates(
-            block.rows,
+            block.rows.numbers,
+            block.rows.step,
             block.points,
             elements,
             plan.coordinates,

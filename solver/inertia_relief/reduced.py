@@ -17,7 +17,7 @@ from solver.inertia_relief.damping import RayleighDamping
 from solver.inertia_relief.reduced_stress import ReducedStress, no_stress
 
 #: Changes whenever the stored arrays change their meaning.
-FORMAT = 7
+FORMAT = 8
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from solver.arrays import IntArray, Single
+from solver.arrays import IntArray, Short, Single
+from solver.inertia_relief.rounded_rows import RoundedRows
 
 #: Elements of a block.
 BLOCK = 256
@@ -24,7 +25,7 @@ COORDINATE_GROUP, PATTERN_GROUP = 32, 16
 class StressBlock:
     """Some elements of one kind; n elements, m coordinates, r patterns."""
 
-    rows: Single  #: (n, 6, m) see `StressRows`
+    rows: RoundedRows  #: see `StressRows`
     points: Single  #: (n, 8, 5) of beams, (n, 0, 5) of shells
     patterns: Single  #: (r, h) of the last h coordinates
     leading: int  #: patterns that suffice for an estimate
@@ -55,8 +56,12 @@ class ReducedStress:
     """
 
     scale: Single  #: (m,)
-    shell_rows: Single  #: (n_shells, 6, m) rows whose squares sum to von Mises, two faces
-    beam_rows: Single  #: (n_beams, 6, m) five rows of normal stress, sqrt(3) times the shear
+    #: (n_shells, 6, m), (n_shells, 6) rows whose squares sum to von Mises, two faces
+    shell_numbers: Short
+    shell_step: Single
+    #: (n_beams, 6, m), (n_beams, 6) five rows of normal stress, sqrt(3) times the shear
+    beam_numbers: Short
+    beam_step: Single
     beam_points: Single  #: (n_beams, 8, 5) normal stress of the points from the five rows
     pattern_shapes: IntArray  #: (blocks, 3) patterns, coordinates (the last ones), leading patterns
     patterns: Single  #: block by block
@@ -69,19 +74,29 @@ class ReducedStress:
     @property
     def element_count(self) -> int:
         """Number of elements, shells first."""
-        return len(self.shell_rows) + len(self.beam_rows)
+        return len(self.shell_step) + len(self.beam_step)
+
+    @property
+    def shell_rows(self) -> RoundedRows:
+        """Rows of the shells."""
+        return RoundedRows(np.asarray(self.shell_numbers), np.asarray(self.shell_step))
+
+    @property
+    def beam_rows(self) -> RoundedRows:
+        """Rows of the beams."""
+        return RoundedRows(np.asarray(self.beam_numbers), np.asarray(self.beam_step))
 
     def blocks(self) -> Iterator[StressBlock]:
         """Yield blocks in the order of the elements."""
         # plain views once: slices of mapped files cost more than what is done with small ones
         every_share, every_pattern = np.asarray(self.shares), np.asarray(self.patterns)
         pattern_norms, rest_norms = np.asarray(self.pattern_norms), np.asarray(self.rest_norms)
-        no_points = np.zeros((len(self.shell_rows), 0, 5), dtype=np.float32)
+        no_points = np.zeros((len(self.shell_step), 0, 5), dtype=np.float32)
         shapes = iter(self.pattern_shapes.tolist())
         element = pattern = share = 0
         for rows, points in (
-            (np.asarray(self.shell_rows), no_points),
-            (np.asarray(self.beam_rows), np.asarray(self.beam_points)),
+            (self.shell_rows, no_points),
+            (self.beam_rows, np.asarray(self.beam_points)),
         ):
             for start in range(0, len(rows), BLOCK):
                 part = slice(start, start + BLOCK)
@@ -117,11 +132,13 @@ def group_edges(count: int, widest: int = COORDINATE_GROUP) -> IntArray:
 
 def no_stress(size: int) -> ReducedStress:
     """Stress of no element at all, for models of the motion alone."""
-    rows = np.zeros((0, 6, size), dtype=np.float32)
+    rows, step = np.zeros((0, 6, size), dtype=np.int16), np.zeros((0, 6), dtype=np.float32)
     return ReducedStress(
         scale=np.ones(size, dtype=np.float32),
-        shell_rows=rows,
-        beam_rows=rows,
+        shell_numbers=rows,
+        shell_step=step,
+        beam_numbers=rows,
+        beam_step=step,
         beam_points=np.zeros((0, 8, 5), dtype=np.float32),
         pattern_shapes=np.zeros((0, 3), dtype=np.int64),
         patterns=np.zeros(0, dtype=np.float32),

@@ -83,10 +83,12 @@ def watch(model: ReducedModel, elements: IntArray) -> WatchedRows:
     """Gather the rows of elements (n,), whatever their order."""
     stress = model.stress
     elements = np.unique(elements)
-    boundary = len(stress.shell_rows)
+    boundary = len(stress.shell_step)
     shells = int(np.searchsorted(elements, boundary))
     beams = elements[shells:] - boundary
-    rows = np.concatenate([stress.shell_rows[elements[:shells]], stress.beam_rows[beams]])
+    rows = np.concatenate(
+        [stress.shell_rows[elements[:shells]].exact(), stress.beam_rows[beams].exact()]
+    )
     return WatchedRows(
         elements=elements,
         shells=shells,

@@ -185,9 +185,9 @@ def reduced_stress(model: ReducedModel, coordinates: Array | Single) -> Array:
     """Von Mises stress (ne, k) of all elements at coordinates (m, k) of a reduced model [Pa]."""
     stress, size = model.stress, len(coordinates)
     scaled = (coordinates / stress.scale[:, None]).astype(np.float32)
-    shells = np.asarray(stress.shell_rows).reshape(-1, size) @ scaled
+    shells = stress.shell_rows.exact().reshape(-1, size) @ scaled
     faces = (shells.reshape(-1, 2, 3, scaled.shape[1]) ** 2).sum(axis=2).max(axis=1)
-    rows = np.asarray(stress.beam_rows).reshape(-1, size) @ scaled
+    rows = stress.beam_rows.exact().reshape(-1, size) @ scaled
     rows = rows.reshape(-1, 6, scaled.shape[1])
     normal = np.asarray(stress.beam_points) @ rows[:, :5]
     points = (normal**2).max(axis=1) + rows[:, 5] ** 2

@@ -50,8 +50,8 @@ def response_of(coordinates: Array) -> ReducedResponse:
 def every_sample(model: ReducedModel, coordinates: Array) -> Array:
     """Von Mises stress (ne, nt) of all elements at all samples, in double precision."""
     coordinates = coordinates / model.stress.scale[:, None]
-    shells = (model.stress.shell_rows.astype(float) @ coordinates) ** 2
-    rows = model.stress.beam_rows.astype(float) @ coordinates
+    shells = (model.stress.shell_rows.exact().astype(float) @ coordinates) ** 2
+    rows = model.stress.beam_rows.exact().astype(float) @ coordinates
     normal = model.stress.beam_points.astype(float) @ rows[:, :5]
     faces = np.maximum(shells[:, :3].sum(axis=1), shells[:, 3:].sum(axis=1))
     points = (normal**2).max(axis=1) + rows[:, 5] ** 2
