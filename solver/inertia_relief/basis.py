@@ -2,15 +2,15 @@
 
 Modes carry the slow global motion.  What they miss is the local stress where loads enter, at the
 gear fittings above all, so every load shape also gives its static response by inertia relief and
-the next terms of its expansion in frequency (block Krylov vectors), at zero and beyond the modes.
-Only what the others do not already represent is kept.
+the next terms of its expansion in frequency (block Krylov vectors), at zero and, damped, beyond the
+modes.  Only what the others do not already represent is kept.
 
 Sources: Craig, "Coupling of substructures for dynamic analyses", 2000 (residual-attachment modes);
-Bai, "Krylov subspace techniques for reduced-order modeling", 2002 (moment matching).
+Bai, "Krylov subspace techniques for reduced-order modeling", 2002 (moment matching); Ruhe,
+"Rational Krylov sequence methods for eigenvalue computation", 1984 (several shifts).
 """
 
 from dataclasses import dataclass
-from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -50,12 +50,14 @@ class BasisSettings:
     cutoff_frequency: float = 100.0  #: where the terms of the expansion are compared [Hz]
     static_tolerance: float = 1e-3  #: share of a load's own static response that may be dropped
     krylov_tolerance: float = 1e-3  #: the same of later terms, of the strongest load at its place
-    harmonic_frequencies: tuple[float, ...] = (100.0, 125.0, 160.0, 220.0)  #: beyond the modes [Hz]
-    #: Mass states of the harmonic responses: fills repeated over the groups, all alike or some full
-    #: where others are empty.
-    harmonic_fills: tuple[tuple[float, ...], ...] = (
-        (0.5,), (0.0,), (1.0,), (0.0, 0.0, 1.0, 1.0), (1.0, 1.0, 0.0, 0.0),
+    #: Frequencies [Hz] of harmonic responses beyond the modes, each with its mass state: fills
+    #: repeated over the groups, all alike or some full where others are empty.
+    harmonic_states: tuple[tuple[float, tuple[float, ...]], ...] = (
+        (100.0, (0.5,)), (150.0, (0.5,)), (225.0, (0.5,)), (320.0, (0.5,)),
+        (130.0, (0.0, 0.0, 1.0, 1.0)), (130.0, (1.0, 1.0, 0.0, 0.0)),
+        (180.0, (0.0,)), (180.0, (1.0,)),
     )  # fmt: skip
+    harmonic_loss: float = 0.15  #: imaginary part of their squared frequency, relative
     harmonic_tolerance: float = 2e-3  #: the same of the response at those frequencies
 
 
@@ -144,9 +146,11 @@ def build_basis(
     next one.  Every x1 counts by the share of its own strain
     energy that is missing.  Later terms are taken at the cut-off frequency and under the loads of a
     hard landing (`_amplitudes`), and compared with the strongest static response at the same place:
-    a pin, the air loads, the inertia of the structure or of a mass group.  The undamped harmonic
-    response (K - w^2 M)^-1 f at a few frequencies beyond the modes, in several mass states, is
-    weighed alike: small stiff parts beside the fittings and under the payload ring there.
+    a pin, the air loads, the inertia of the structure or of a mass group.  The damped harmonic
+    response (K - w^2 (1 - i eta) M)^-1 f at a few frequencies beyond the modes, in several mass
+    states, is weighed alike: small stiff parts beside the fittings and under the payload ring
+    there.  Without the loss eta it would be the shape of the one mode nearest to w; with it, it
+    holds what all modes within the band w eta answer, as they do when they are damped.
 
     Parameters
     ----------
@@ -189,12 +193,12 @@ def build_basis(
         else:
             basis = extended(stiffness, basis, term / strongest, settings.krylov_tolerance)
     progress("residual vectors", 1.0)
-    states = list(product(settings.harmonic_frequencies, settings.harmonic_fills))
+    states = settings.harmonic_states
     for index, (frequency, fills) in enumerate(states):
         progress("harmonic vectors", index / len(states))
         body = free_body(structure, mass_state(base, groups, fills))
-        term = middle.mean_axis(harmonic_response(body, loads, frequency))
-        basis = extended(stiffness, basis, term / strongest, settings.harmonic_tolerance)
+        term = harmonic_response(body, loads / strongest, frequency, settings.harmonic_loss)
+        basis = extended(stiffness, basis, middle.mean_axis(term), settings.harmonic_tolerance)
     progress("harmonic vectors", 1.0)
     # as modes of the middle state, slow ones last: any loading's motion is then concentrated
     mass = np.empty((basis.shape[1],) * 2)
@@ -208,21 +212,25 @@ def build_basis(
     return basis
 
 
-def harmonic_response(body: FreeBody, loads: Array, frequency: float) -> Array:
-    """Undamped response (n, k) to balanced loads of one frequency [Hz].
+def harmonic_response(body: FreeBody, loads: Array, frequency: float, loss: float) -> Array:
+    """Response (n, 2 k) to balanced loads (n, k) of one frequency [Hz]: in phase, then out of it.
+
+    ``(K - w^2 (1 - i loss) M) u = f``.  Divided by ``1 + i beta w`` the matrix of a structure with
+    Rayleigh damping is of this form, with a loss near ``beta w + alpha / w``, twice the ratio of
+    critical damping.
 
     Raises
     ------
     ModelError
-        The frequency is so close to a mode that the solution is not one.
+        The frequency is so close to an undamped mode that the solution is not one.
     """
-    balanced = body.self_equilibrated(loads)
-    matrix = body.stiffness - (2 * np.pi * frequency) ** 2 * body.mass
+    balanced = body.self_equilibrated(loads).astype(np.complex128)
+    matrix = body.stiffness - (2 * np.pi * frequency) ** 2 * (1 - 1j * loss) * body.mass
     response = factorise(matrix).solve(np.ascontiguousarray(balanced))
     error = np.abs(matrix @ response - balanced).max() / np.abs(balanced).max()
     if not error <= _HARMONIC_ERROR:
         raise ModelError(f"harmonic response at {frequency:g} Hz is off by {error:.3g} of the load")
-    return body.mean_axis(response)
+    return body.mean_axis(np.hstack([response.real, response.imag]))
 
 
 def _amplitudes(wrenches: int, inertias: int, mass: float) -> tuple[Array, IntArray]:

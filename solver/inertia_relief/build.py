@@ -13,6 +13,7 @@ from solver.inertia_relief.basis import BasisSettings, build_basis, mass_state
 from solver.inertia_relief.compression import compressed, principal_axes
 from solver.inertia_relief.damping import RayleighDamping
 from solver.inertia_relief.loads import applied_shapes
+from solver.inertia_relief.motion_measure import motion_measure
 from solver.inertia_relief.projection import projected_inertia
 from solver.inertia_relief.reduced import FORMAT, ReducedModel, load_reduced_model, rate_norms
 from solver.inertia_relief.reduced_stress import no_stress
@@ -75,7 +76,9 @@ def project(
         inertia=np.stack(inertial),
         stress=no_stress(basis.shape[1]),
     )
-    axes, spread = principal_axes(motions(model), model.size)
+    axes, spread = principal_axes(
+        motions(model), model.size, lambda spread: motion_measure(recovery, basis, spread)
+    )
     progress("compression", 0.0)
     rows = reduced_stress_rows(recovery, basis @ axes)
     stress = compressed(rows, spread)

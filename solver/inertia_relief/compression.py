@@ -10,7 +10,7 @@ landings decide only how narrow the bounds of the peak search are; its answers d
 Source: Eckart and Young, "The approximation of one matrix by another of lower rank", 1936.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -32,8 +32,8 @@ from solver.inertia_relief.stress_rows import StressRows, measure_squares
 DROPPED = 3e-3
 #: The same beyond the leading patterns.
 BEYOND_LEADING = 1.2e-2
-#: Share of the motion in landings that the directions left out may carry.
-UNMOVED = 2e-5
+#: Share of the motion in landings that the directions left out may carry, as it is measured.
+UNMOVED = 8e-5
 #: Power of the spread by which coordinates are divided; 0 keeps them, 1 makes them alike.
 SCALING = 0.5
 #: A coordinate counts as moved by at least this share of the most moved one.
@@ -42,7 +42,9 @@ _LEAST_SPREAD = 3e-5
 _LANES = 16
 
 
-def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array]:
+def principal_axes(
+    histories: Sequence[Single], size: int, measure: Callable[[Array], Array] | None = None
+) -> tuple[Array, Array]:
     """Find the directions in which landings move the coordinates, how far, and which matter.
 
     Directions in which they hardly move are left out: those that carry, together, less than
@@ -53,6 +55,9 @@ def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array
     histories : sequence of (m, nt) arrays
         Coordinates over some landings; each counts alike, by its largest norm.  None at all
         leaves the coordinates as they are.
+    measure : callable
+        Gives the matrix N (m, m) in whose norm ``z' N z`` motion is measured from its covariance.
+        By default that is the strain energy.
 
     Returns
     -------
@@ -65,10 +70,13 @@ def principal_axes(histories: Sequence[Single], size: int) -> tuple[Array, Array
     for history in histories:
         scaled = history.astype(np.float64) / np.linalg.norm(history, axis=0).max()
         covariance += scaled @ scaled.T / (scaled.shape[1] * len(histories))
-    squares, axes = np.linalg.eigh(covariance)
+    lower = np.eye(size) if measure is None else np.linalg.cholesky(measure(covariance))
+    squares, directions = np.linalg.eigh(lower.T @ covariance @ lower)
     squares = np.maximum(squares, 0.0)
     first = int(np.searchsorted(np.cumsum(squares), UNMOVED**2 * squares.sum()))
-    squares, axes = squares[first:], axes[:, first:]
+    kept = np.linalg.qr(np.linalg.solve(lower.T, directions[:, first:]))[0]
+    squares, axes = np.linalg.eigh(kept.T @ covariance @ kept)
+    squares, axes = np.maximum(squares, 0.0), kept @ axes
     return axes, np.sqrt(np.maximum(squares, _LEAST_SPREAD**2 * squares[-1]))
 
 

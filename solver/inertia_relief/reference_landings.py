@@ -1,15 +1,19 @@
 """Usual landings of an aircraft, to know how its reduced coordinates move.
 
-They steer how stress is compressed (`solver.inertia_relief.compression`), never what it is.
+They decide which directions of the basis are kept and how stress is compressed
+(`solver.inertia_relief.compression`).  They fill the range of touchdowns and loadings evenly: what
+no landing like it has moved would be missing when one comes.
+
+Source: Halton, "On the efficiency of certain quasi-random sequences of points in evaluating
+multi-dimensional integrals", Numer. Math. 2 (1960).
 """
 
-from itertools import product
 from math import radians
 from typing import TYPE_CHECKING
 
-import numpy as np
+from scipy.stats import qmc
 
-from solver.arrays import Single
+from solver.arrays import Array, Single
 from solver.errors import SimulationDivergedError
 from solver.inertia_relief.loading import assemble
 from solver.inertia_relief.loads import landing_loads
@@ -22,14 +26,39 @@ from solver.progress import Progress, silent
 if TYPE_CHECKING:
     from solver.aircraft.airframe import Airframe
 
-#: Sink rate [m/s] with drift and roll rate [deg, deg/s], pitch [deg], roll [deg]: all combined.
-_SINK = ((1.0, 2.0, 1.0), (2.2, -3.0, 3.0), (3.4, 1.0, -2.0))
-_PITCH = (-2.5, 1.0, 4.5, 8.0)
-_ROLL = (0.0, 3.0)
-#: Fill of every tank and bay, in turn.
-_FILL = (0.1, 0.5, 0.9, 0.3, 0.7)
-_GROUND_SPEED = 58.0  #: [m/s]
+#: Touchdowns; those that an aircraft's gears cannot take are left out.
+COUNT = 72
+#: Smallest and largest sink rate and ground speed [m/s], pitch, roll, drift [deg], and rates of
+#: pitch, roll, yaw [deg/s].
+RANGES = (
+    (0.4, 3.6), (48.0, 72.0), (-3.0, 9.0), (-5.0, 5.0), (-6.0, 6.0), (-4.0, 4.0), (-15.0, 15.0),
+    (-3.0, 3.0),
+)  # fmt: skip
 _DURATION = 1.0  #: [s]
+
+
+def reference_contacts(groups: int, count: int = COUNT) -> list[tuple[Contact, Array]]:
+    """Touchdowns, each with the fill of every one of ``groups`` tanks and bays."""
+    sequence = qmc.Halton(len(RANGES) + groups, scramble=False)
+    sequence.fast_forward(1)  # the first point is a corner
+    contacts = []
+    for point in sequence.random(count):
+        sink_rate, ground_speed, *angles = (
+            low + share * (high - low) for share, (low, high) in zip(point, RANGES, strict=False)
+        )
+        pitch, roll, drift, pitch_rate, roll_rate, yaw_rate = map(radians, angles)
+        contact = Contact(
+            sink_rate=sink_rate,
+            ground_speed=ground_speed,
+            pitch=pitch,
+            roll=roll,
+            drift=drift,
+            pitch_rate=pitch_rate,
+            roll_rate=roll_rate,
+            yaw_rate=yaw_rate,
+        )
+        contacts.append((contact, point[len(RANGES) :]))
+    return contacts
 
 
 def reference_motions(
@@ -37,19 +66,10 @@ def reference_motions(
 ) -> list[Single]:
     """Coordinates (m, nt) over each landing that can be simulated."""
     options = SimulationOptions(time_limit=_DURATION, stop_when_settled=False)
-    cases = list(product(_SINK, _PITCH, _ROLL))
+    contacts = reference_contacts(model.group_count)
     motions = []
-    for index, ((sink, drift, roll_rate), pitch, roll) in enumerate(cases):
-        progress("reference landings", index / len(cases))
-        factors = np.resize(np.roll(_FILL, index), model.group_count)
-        contact = Contact(
-            sink_rate=sink,
-            ground_speed=_GROUND_SPEED,
-            pitch=radians(pitch),
-            roll=radians(roll if index % 2 else -roll),
-            drift=radians(drift),
-            roll_rate=radians(roll_rate),
-        )
+    for index, (contact, factors) in enumerate(contacts):
+        progress("reference landings", index / len(contacts))
         try:
             history = simulate_landing(airframe.landing_aircraft(factors), contact, options)
         except SimulationDivergedError:  # beyond what this aircraft's gears take

@@ -46,9 +46,7 @@ STEPS = {False: 0.05e-3, True: 2e-6}  #: gauges are multiples of these: shells [
 #: Largest gauge over the family's first one.
 LARGEST_GROWTH = 5.0
 #: A lighter basis than assessments use: it only has to magnify.
-DYNAMIC_BASIS = BasisSettings(
-    modes=60, harmonic_frequencies=(110.0, 150.0), harmonic_fills=((0.5,),)
-)
+DYNAMIC_BASIS = BasisSettings(modes=60, harmonic_states=((110.0, (0.5,)), (150.0, (0.5,))))
 #: Range of the dynamic magnification: a cabin floor near the spring-back frequency has seven.
 MAGNIFICATION = (0.5, 20.0)
 #: Below this utilisation a ratio of peaks tells nothing.

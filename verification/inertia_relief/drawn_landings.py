@@ -1,10 +1,7 @@
 """Landings and loadings drawn at random, by full order and reduced: what no setting has seen.
 
-The landings of a loading are integrated side by side, so that they share the factors.  Two step
-sizes tell how far each peak is from its limit, which is what the reduced peaks are held against.
-
-Source: Richardson, "The deferred approach to the limit", 1927; the integration is of second order
-in its step.
+The landings of a loading are integrated side by side, so that they share the factors, and at
+several step sizes, whose limit the reduced peaks are held against.
 """
 
 from dataclasses import dataclass
@@ -14,16 +11,16 @@ import numpy as np
 
 from solver.arrays import Array
 from solver.errors import SimulationDivergedError
-from solver.inertia_relief.accumulate import PeakAccumulator
 from solver.inertia_relief.build import airframe_damping
 from solver.inertia_relief.free_body import free_body
-from solver.inertia_relief.full_order import BodyLoads, integrate_together
+from solver.inertia_relief.full_order import BodyLoads
 from solver.inertia_relief.loading import assemble
 from solver.inertia_relief.loads import LandingLoads, applied_shapes
 from solver.inertia_relief.peaks import find_peaks
 from solver.inertia_relief.response import landing_response
 from solver.landing.contact import Contact
 from verification.inertia_relief.landings import random_contact, simulated_loads
+from verification.inertia_relief.time_converged import ConvergedPeaks, converged_peaks
 from verification.run import Run
 
 SEED = 1523
@@ -59,7 +56,7 @@ class DrawnLanding:
     mass: float  #: [kg]
     contact: Contact
     full: Array  #: (ne,) full order, in the limit of small steps [Pa]
-    step_error: Array  #: (ne,) of the finer steps, estimated, relative
+    full_error: Array  #: (ne,) of that limit, estimated, relative
     fast: Array  #: (ne,) reduced [Pa]
 
     def worst(self, share: float) -> float:
@@ -69,7 +66,7 @@ class DrawnLanding:
 
 
 def drawn_landings(
-    run: Run, loadings: int, landings: int, duration: float, substeps: int
+    run: Run, loadings: int, landings: int, duration: float, substeps: tuple[int, ...]
 ) -> list[DrawnLanding]:
     """Draw, integrate by both ways, and compare; ``landings`` of each of ``loadings``.
 
@@ -77,8 +74,8 @@ def drawn_landings(
 
     Parameters
     ----------
-    substeps : int
-        Even; full-order steps between two samples, the coarser steps are half as many.
+    substeps : tuple of int
+        Full-order steps between two samples, see `converged_peaks`.
     """
     found = []
     for number in range(loadings):
@@ -86,14 +83,13 @@ def drawn_landings(
         factors = random.uniform(0.0, 1.0, len(run.airframe.groups))
         drawn = [_draw(run, factors, random, duration) for _ in range(landings)]
         loads = [each for _, each in drawn]
-        fine = _full_order(run, number, factors, loads, substeps)
-        coarse = _full_order(run, number, factors, loads, substeps // 2)
-        limit = fine + (fine - coarse) / 3
+        full = _full_order(run, number, factors, loads, substeps)
         loading = assemble(run.reduced, factors)
         for k, (contact, each) in enumerate(drawn):
             fast = find_peaks(run.reduced, landing_response(loading, each)).stress
-            error = np.abs(fine[k] / np.where(limit[k] > 0.0, limit[k], np.inf) - 1)
-            found.append(DrawnLanding(number, loading.mass, contact, limit[k], error, fast))
+            found.append(
+                DrawnLanding(number, loading.mass, contact, full.stress[k], full.error[k], fast)
+            )
     return found
 
 
@@ -109,35 +105,40 @@ def _draw(
 
 
 def _full_order(
-    run: Run, number: int, factors: Array, landings: list[LandingLoads], substeps: int
-) -> Array:
-    """Peaks (landings, ne) of the full-order integration."""
+    run: Run,
+    number: int,
+    factors: Array,
+    landings: list[LandingLoads],
+    substeps: tuple[int, ...],
+) -> ConvergedPeaks:
+    """Peaks of the full-order integration."""
     airframe = run.airframe
     damping = airframe_damping(airframe)
 
     def compute() -> dict[str, Array]:
         start = process_time()
         shapes = applied_shapes(airframe)
-        peaks = [PeakAccumulator(airframe.recovery) for _ in landings]
-        integrate_together(
+        peaks = converged_peaks(
             free_body(airframe.structure, airframe.inertia(factors)),
             [
                 BodyLoads(loads.time, shapes, loads.applied_amplitudes(), loads.motion)
                 for loads in landings
             ],
             damping,
-            peaks,
+            airframe.recovery,
             substeps,
             TOLERANCE,
             progress=lambda step, share: run.progress(f"loading {number + 1}: {step}", share),
         )
         return {
-            "stress": np.stack([part.stress for part in peaks]),
+            "stress": peaks.stress,
+            "error": peaks.error,
             "seconds": np.array(process_time() - start),
         }
 
     inputs = [
         airframe.content_hash, factors, damping, substeps, TOLERANCE, landings,
     ]  # fmt: skip
-    name = f"full-order-drawn-{number + 1}-{substeps}"
-    return run.stored(name, inputs, FULL_ORDER_SOURCES, compute)["stress"]
+    sources = (*FULL_ORDER_SOURCES, "verification/inertia_relief/time_converged.py")
+    found = run.stored(f"full-order-drawn-{number + 1}", inputs, sources, compute)
+    return ConvergedPeaks(found["stress"], found["error"])
