@@ -232,7 +232,7 @@ def _drawn_section(drawn: list[DrawnLanding], quick: bool) -> tuple[Text, Table,
         + (
             " In this short form only 60 ms are followed."
             if quick
-            else " The settings of the basis were chosen with a look at landings 12, 13, 14 and 16, "
+            else " The settings of the basis were chosen with a look at landings 12, 13, 14, 16, "
             "not at the others; the landings that choose its axes span the same ranges."
         )
     )
