@@ -224,13 +224,20 @@ def harmonic_response(body: FreeBody, loads: Array, frequency: float, loss: floa
     ModelError
         The frequency is so close to an undamped mode that the solution is not one.
     """
-    balanced = body.self_equilibrated(loads).astype(np.complex128)
+    balanced = body.self_equilibrated(loads)
     matrix = body.stiffness - (2 * np.pi * frequency) ** 2 * (1 - 1j * loss) * body.mass
-    response = factorise(matrix).solve(np.ascontiguousarray(balanced))
-    error = np.abs(matrix @ response - balanced).max() / np.abs(balanced).max()
+    factor, count, error = factorise(matrix), balanced.shape[1], 0.0
+    response = np.empty((len(balanced), 2 * count))
+    for first in range(0, count, _TOGETHER):
+        some = balanced[:, first : first + _TOGETHER]
+        found = factor.solve(np.ascontiguousarray(some, dtype=np.complex128))
+        error = np.maximum(error, np.abs(matrix @ found - some).max())  # also if it is no number
+        last = first + found.shape[1]
+        response[:, first:last], response[:, count + first : count + last] = found.real, found.imag
+    error /= np.abs(balanced).max()
     if not error <= _HARMONIC_ERROR:
         raise ModelError(f"harmonic response at {frequency:g} Hz is off by {error:.3g} of the load")
-    return body.mean_axis(np.hstack([response.real, response.imag]))
+    return body.mean_axis(response)
 
 
 def _amplitudes(wrenches: int, inertias: int, mass: float) -> tuple[Array, IntArray]:

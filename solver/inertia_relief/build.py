@@ -77,7 +77,7 @@ def project(
         stress=no_stress(basis.shape[1]),
     )
     axes, spread = principal_axes(
-        motions(model), model.size, lambda spread: motion_measure(recovery, basis, spread)
+        motions(model), model.size, lambda moved: motion_measure(recovery, basis, moved)
     )
     progress("compression", 0.0)
     rows = reduced_stress_rows(recovery, basis @ axes)

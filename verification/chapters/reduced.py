@@ -229,7 +229,12 @@ def _drawn_section(drawn: list[DrawnLanding], quick: bool) -> tuple[Text, Table,
         "random: sink rate, attitude, drift, rates, lift, and the fill of every tank and bay. The "
         "full order is integrated at three step sizes; its displacements are carried on to the "
         "limit of small steps, sample by sample, as the integration has even powers of the step."
-        + (" In this short form only 60 ms are followed." if quick else "")
+        + (
+            " In this short form only 60 ms are followed."
+            if quick
+            else " The settings of the basis were chosen with a look at landings 12, 13, 14, 16, "
+            "not at the others; the landings that choose its axes span the same ranges."
+        )
     )
     return (
         Text(text),

@@ -1,4 +1,4 @@
-"""Landings and loadings drawn at random, by full order and reduced: what no setting has seen.
+"""Landings and loadings drawn at random, by full order and reduced.
 
 The landings of a loading are integrated side by side, so that they share the factors, and at
 several step sizes, whose limit the reduced peaks are held against.

@@ -1,6 +1,7 @@
 """What a motion counts: mean squares over landings, and slender elements."""
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from solver.fe.stress import StressRecovery
 from solver.inertia_relief.basis import BasisSettings, build_basis
@@ -30,8 +31,6 @@ def test_energy_and_stress_have_a_mean_square_of_one_each() -> None:
 
 def beams_that_each_feel_one_coordinate(sensitivities: np.ndarray) -> StressRecovery:
     """Recovery of beams whose every stress is a coordinate's amplitude times a factor [Pa]."""
-    from scipy.sparse import csr_array
-
     count = len(sensitivities)
     rows = np.zeros((9 * count, count))
     for beam, factor in enumerate(sensitivities):
