@@ -15,6 +15,9 @@ from solver.fe.inertia import GENERATORS, RATE_PRODUCTS
 if TYPE_CHECKING:
     from solver.fe.inertia import Inertia
 
+#: Vectors of the basis that are worked on at once.
+_TOGETHER = 64
+
 
 def projected_inertia(inertia: "Inertia", basis: Array) -> tuple[Array, Array]:
     """Mass (m, m) and the twelve rate operators (12, m, m) in ``basis`` (n, m).
@@ -23,20 +26,16 @@ def projected_inertia(inertia: "Inertia", basis: Array) -> tuple[Array, Array]:
     velocity), Euler 3 and centrifugal 6 (on the displacement).
     """
     size = basis.shape[1]
-    motion = np.asarray(inertia.interpolation @ basis).reshape(-1, 3, size)
-    products = np.empty((3, 3, size, size))
-    for b in range(3):
-        weighted = inertia.scalar_mass @ motion[:, b]
-        for a in range(b + 1):
-            products[a, b] = motion[:, a].T @ weighted
-            products[b, a] = products[a, b].T
+    products = _point_products(inertia, basis)
     rotation = np.asarray(inertia.rotary_interpolation @ basis).reshape(-1, 3, size)
-    rotary = inertia.rotary
+    flat, rotary = rotation.reshape(3 * len(rotation), size), inertia.rotary
 
     def operator(direction: Array, bodies: Array) -> Array:
-        points = np.einsum("ab,abij->ij", direction, products)
-        moments = np.matmul(bodies, rotation).reshape(-1, size)
-        total: Array = points + rotation.reshape(-1, size).T @ moments
+        total: Array = np.einsum("ab,abij->ij", direction, products)
+        for first in range(0, size, _TOGETHER):
+            part = slice(first, first + _TOGETHER)
+            moments = np.matmul(bodies, rotation[:, :, part])
+            total[:, part] += flat.T @ moments.reshape(len(flat), moments.shape[2])
         return total
 
     mass = operator(np.eye(3), rotary)
@@ -50,3 +49,28 @@ def projected_inertia(inertia: "Inertia", basis: Array) -> tuple[Array, Array]:
         else:
             centrifugal.append(operator(a @ b + b @ a, a @ rotary @ b + b @ rotary @ a))
     return (mass + mass.T) / 2, np.stack([*gyroscopic, *euler, *centrifugal])
+
+
+def _point_products(inertia: "Inertia", basis: Array) -> Array:
+    """Products ``Y_a' m Y_b`` (3, 3, m, m) of the points' motion in every two directions.
+
+    Some columns at a time: there are several points at a node, and the motion of all of them in
+    the whole basis would take more memory than the basis does.
+    """
+    size = basis.shape[1]
+    freedoms = np.unique(inertia.interpolation.indices)
+    moving = inertia.interpolation
+    if len(freedoms) < len(basis) // 2:  # the mass of a tank is at few nodes
+        moving, basis = moving[:, freedoms], basis[freedoms]
+    directions = [moving[axis::3] for axis in range(3)]
+    products = np.empty((3, 3, size, size))
+    for first in range(0, size, _TOGETHER):
+        part = slice(first, first + _TOGETHER)
+        for b in range(3):
+            weighted = inertia.scalar_mass @ (directions[b] @ basis[:, part])
+            for a in range(b + 1):
+                products[a, b, :, part] = basis.T @ (directions[a].T @ weighted)
+    for b in range(3):
+        for a in range(b):
+            products[b, a] = products[a, b].T
+    return products
