@@ -14,16 +14,22 @@ from scipy.special import log_ndtr
 
 from solver.arrays import Array
 from solver.flight_data.alignment import Series, aligned, best
-from solver.flight_data.ambiguity import parts, widened
 from solver.flight_data.contacts import ContactKind, ContactTime
 from solver.flight_data.geometry import Geometry, Place, Wheel
 from solver.flight_data.lever import rise
 from solver.flight_data.onset import Indicator, indicator
 from solver.flight_data.parameter import Parameter
-from solver.flight_data.touchdown import Courses, Estimate
+from solver.flight_data.touchdown import Courses
 from solver.flight_data.vertical import SLOPE_SD
-from solver.flight_data.vote import HEIGHT_DRIFT, LEAST_SPEED, Ballot, Vote, closing_indicator
-from solver.flight_data.wheels import wheel_course
+from solver.flight_data.vote import (
+    HEIGHT_DRIFT,
+    LEAST_SPEED,
+    Ballot,
+    Vote,
+    closing_indicator,
+    first_time_down,
+)
+from solver.flight_data.wheels import lowest_course, wheel_course
 from solver.flight_data.window import Window
 from solver.frames import body_structural
 from solver.landing.records import GRAVITY
@@ -36,8 +42,8 @@ _STEP = 0.02
 _FROM, _UNTIL = 4.0, 1.5
 
 #: Pitch is looked at from so long before the first contact until so long after the last time that
-#: is considered; the aircraft then rolls on its wheels if its first contact is long enough ago [s].
-_BEFORE, _AFTER, _SETTLED = 1.5, 1.5, 2.5
+#: is considered, and at least until the aircraft has settled on its wheels [s].
+_BEFORE, _AFTER, _SETTLED = 1.5, 1.5, 3.6
 
 #: Radius of gyration in pitch per wheel base; an assumption, of the usual size for jets.
 _GYRATION = 0.46
@@ -46,6 +52,9 @@ _GYRATION = 0.46
 #: its lever arm (rolling and spin-up drag act the same way), and its spread.
 _OF_MAINS, _OF_MAINS_SPREAD = 1.8, 0.35
 
+#: A hop shows the lift from so long after the first contact until so long before the next [s].
+_COMPRESSED, _ONSET = 0.25, 0.03
+
 #: Rate at which pitch motion is damped on the main wheels [1/s].
 _DAMPING = (2.0, 0.7)
 
@@ -53,7 +62,7 @@ _DAMPING = (2.0, 0.7)
 #: [rad/s], and spectral densities of what else moves the pitch in the air and on the mains, and
 #: when the nose strut works [rad2/s3].
 _STEADY, _JUMP = 0.05, 0.02
-_IN_AIR, _ON_MAINS, _ON_NOSE = 2e-3, 5e-4, 2e-2
+_IN_AIR, _ON_MAINS, _ON_NOSE = 2e-3, 5e-4, 1.5e-2
 
 #: Pitch acceleration by the nose strut times the wheel base: its preload comes at once [m/s2].
 _BY_NOSE, _BY_NOSE_SPREAD = 5.5, 0.33
@@ -61,17 +70,20 @@ _BY_NOSE, _BY_NOSE_SPREAD = 5.5, 0.33
 #: Spread of angle and rate of pitch before anything is known [rad, rad/s].
 _ANGLE_SD, _RATE_SD = 1.0, 0.2
 
-#: What is left of a wheel's height besides the deviation of the smoothed one [m].
-_HEIGHT_SD = 0.02
+#: Part of the stated deviation of the sensor's height that is left on the synthetic fleet (the
+#: smoother allows for shocks of any course), and what a wheel's height has besides it [m].
+_LEFT_OF_DEVIATION, _HEIGHT_SD = 0.65, 0.01
 
 #: Delays of the recorded pitch that are averaged over, in standard deviations.
 _DELAYS = np.linspace(-2.0, 2.0, 5)
 
-#: Times that lie farther apart are hypotheses of their own [s], down to this log likelihood.
-_APART, _LEAST_LOG = 0.2, -10.0
+#: The time is that around which most of the chance lies within so much [s]: where the wheel may
+#: have touched lightly before, a mean would lie where no time is likely.
+_WANTED = 0.1
 
-#: Power of their likelihoods (see `first_contact`).
-_TEMPER = 0.8
+#: Chance that a light touch went before the one that pitch and switch tell, and how long at least
+#: [s].
+_KISS, _LEAST_APART = 0.1, 0.2
 
 #: What the model of the pitch leaves open of the time [s].
 _MODEL_SD = 0.01
@@ -123,8 +135,9 @@ def nose_contact(
     considered = _considered(courses, geometry, noses[0], first)
     if considered is None:
         return None
-    grid, height = considered
-    span = (first - _BEFORE, min(grid[-1] + _AFTER, float(courses.vertical.time[-1])))
+    grid, height, sd = considered
+    last = max(float(grid[-1]) + _AFTER, first + _SETTLED)
+    span = (first - _BEFORE, min(last, float(courses.vertical.time[-1])))
     prepared = _prepared(pitch, normal, courses, geometry, contacts, span)
     joint = _joint(prepared, courses, geometry, noses[0], grid, span[1])
     indicators = [indicator("nose height and pitch", grid, joint + _not_before(grid, height))]
@@ -133,13 +146,14 @@ def nose_contact(
         closing = closing_indicator("ground switches", switch, grid, _SWITCH_WAY / speed)
         if closing is not None:
             indicators.append(closing)
-    return _likeliest(grid, indicators)
+    touched = indicator("height", grid, first_time_down(grid, height, sd))
+    return _likeliest(grid, _with_kisses(indicators, touched), indicators)
 
 
 def _considered(
     courses: Courses, geometry: Geometry, nose: Wheel, first: float
-) -> tuple[Array, Array] | None:
-    """List times at which the wheel may touch, and its smoothed height there."""
+) -> tuple[Array, Array, Array] | None:
+    """List times at which the wheel may touch, its smoothed height there and its deviation."""
     time = np.arange(first + _STEP, float(courses.vertical.time[-1]) - 0.5, _STEP)
     height, sd = wheel_course(courses, geometry, nose, time)
     near = np.flatnonzero(height < sd)
@@ -148,7 +162,7 @@ def _considered(
     last = time[near[0]] + _UNTIL
     start = np.flatnonzero(height < _FROM * sd)[0]
     chosen = slice(start, int(np.searchsorted(time, last)))
-    return time[chosen], height[chosen]
+    return time[chosen], height[chosen], sd[chosen]
 
 
 def _prepared(
@@ -164,6 +178,7 @@ def _prepared(
     step = 0.005
     fine = np.arange(first, span[1] + 1.0, step)
     load = np.interp(fine, normal.time, normal.value) - 1.0
+    load -= _lift_change(fine, load, courses, geometry, contacts)
     by_load = np.cumsum(np.cumsum(load)) * step**2
     by_damping = -np.cumsum(courses.pitch.at(fine) - courses.pitch.at(first)) * step
     base = _wheel_base(geometry)
@@ -180,6 +195,19 @@ def _prepared(
         load_lever=-_OF_MAINS * GRAVITY * lever / (_GYRATION * base) ** 2,
         nose_acceleration=_BY_NOSE / base,
     )
+
+
+def _lift_change(
+    time: Array, load: Array, courses: Courses, geometry: Geometry, contacts: list[ContactTime]
+) -> Array:
+    """Change of lift over weight, (n,): in a hop the normal acceleration shows it."""
+    hops = [contact.time for contact in contacts if contact.kind is ContactKind.BOUNCE]
+    if not hops:
+        return np.zeros_like(time)
+    low, _ = lowest_course(courses, geometry, geometry.mains, time)
+    off = (time > contacts[0].time + _COMPRESSED) & (time < hops[0] - _ONSET) & (low > 0)
+    shown = np.concatenate([[contacts[0].time], time[off]])
+    return np.asarray(np.interp(time, shown, np.concatenate([[0.0], load[off]])))
 
 
 def _wheel_base(geometry: Geometry) -> float:
@@ -211,8 +239,8 @@ def _joint(
     measured[:, samples] = lever * angle - sensor - over
     measured[:, samples + 1] = geometry.rolling_pitch
     variance = np.full_like(scale, pitch.entry.sd**2)
-    variance[:, samples] = sensor_variance + _HEIGHT_SD**2
-    rolls = end - pitch.first > _SETTLED
+    variance[:, samples] = _LEFT_OF_DEVIATION**2 * sensor_variance + _HEIGHT_SD**2
+    rolls = end >= pitch.first + _SETTLED
     variance[:, samples + 1] = geometry.rolling_pitch_sd**2 if rolls else 1e2
     errors = _outer(bias) * (entry.bias.value**2 + SLOPE_SD**2)
     diagonal = np.arange(samples + 2)
@@ -289,27 +317,31 @@ def _not_before(grid: Array, height: Array) -> Array:
     return np.asarray(np.where(passed > 0, log_ndtr(margin), 0.0).min(axis=1))
 
 
-def _likeliest(grid: Array, indicators: list[Indicator]) -> ContactTime:
-    """Time within the likeliest hypothesis, its deviation widened by the others."""
-    total = np.sum([each.log_likelihood for each in indicators], axis=0)
-    found = []
-    for start, end in parts(total, round(_APART / _STEP), _LEAST_LOG):
-        near = indicator("", grid[start:end], total[start:end])
-        chance = float(np.exp(_TEMPER * np.logaddexp.reduce(total[start:end] - total.max())))
-        sd = float(np.linalg.norm([near.sd, _MODEL_SD, _STEP / np.sqrt(12.0)]))
-        found.append((chance, Estimate(near.time, sd)))
-    found.sort(key=lambda each: -each[0])
-    whole = sum(chance for chance, _ in found)
-    time = widened(found[0][1], [(chance / whole, other) for chance, other in found[1:]])
+def _with_kisses(indicators: list[Indicator], touched: Indicator) -> Array:
+    """Chance of each time, (n,).
+
+    Where pitch and switch tell a firm touch, the wheel may have touched lightly before, of which
+    only the height tells.
+    """
+    firm = np.exp(np.sum([each.log_likelihood for each in indicators], axis=0))
+    firm /= firm.sum()
+    light = np.exp(touched.log_likelihood)
+    light /= light.sum()
+    apart = round(_LEAST_APART / _STEP)
+    later = np.append(np.cumsum(firm[::-1])[::-1], np.zeros(apart))[apart:]
+    weight = (1 - _KISS) * firm + _KISS * light * later
+    return np.asarray(weight / weight.sum())
+
+
+def _likeliest(grid: Array, weight: Array, indicators: list[Indicator]) -> ContactTime:
+    """Time around which most of the chance lies, its deviation that of all chances about it."""
+    within = np.abs(grid[:, None] - grid[None, :]) <= _WANTED
+    near = within[int(np.argmax(within @ weight))] * weight
+    time = float(near @ grid / near.sum())
+    variance = float(weight @ (grid - time) ** 2) + _MODEL_SD**2 + _STEP**2 / 12.0
+    sd = float(np.sqrt(variance))
     ballots = tuple(
-        Ballot(
-            each.name,
-            each.time,
-            each.sd,
-            abs(each.time - time.value) <= 3 * np.hypot(each.sd, time.sd),
-        )
+        Ballot(each.name, each.time, each.sd, abs(each.time - time) <= 3 * np.hypot(each.sd, sd))
         for each in indicators
     )
-    return ContactTime(
-        ContactKind.DEROTATION, time.value, time.sd, Vote(time.value, time.sd, ballots)
-    )
+    return ContactTime(ContactKind.DEROTATION, time, sd, Vote(time, sd, ballots))

@@ -52,7 +52,7 @@ class Geometry:
     static_closure: float = 0.2  #: of strut and tyre of a main gear, aircraft rolling [m]
     static_closure_sd: float = 0.1  #: servicing of the struts, lift left [m]
     rolling_pitch: float = 0.0  #: against the runway, on all wheels [rad]
-    rolling_pitch_sd: float = np.deg2rad(0.3)  #: servicing of the struts [rad]
+    rolling_pitch_sd: float = np.deg2rad(0.22)  #: servicing, struts at work [rad]
 
     def of(self, place: Place) -> tuple[Wheel, ...]:
         """Wheels at a place."""
