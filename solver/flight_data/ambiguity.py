@@ -1,38 +1,12 @@
 """What other hypotheses that remain possible add to the deviations of the likeliest one."""
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 
 from solver.arrays import Array
 from solver.flight_data.touchdown import Estimate, TouchdownState
 from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
-
-
-def parts(log_likelihood: Array, apart: int, least: float) -> list[tuple[int, int]]:
-    """Ranges of indices around the peaks that stand apart, parted at the lowest value between.
-
-    Parameters
-    ----------
-    log_likelihood : (n,) array
-    apart : int
-        Least number of steps between two peaks.
-    least : float
-        Log likelihood, below the greatest, from which on a peak counts; negative.
-    """
-    peaks: list[int] = []
-    for k in np.argsort(-log_likelihood):
-        if log_likelihood[k] < log_likelihood.max() + least:
-            break
-        if all(abs(k - other) >= apart for other in peaks):
-            peaks.append(int(k))
-    peaks.sort()
-    bounds = [0]
-    for one, other in pairwise(peaks):
-        bounds.append(one + int(np.argmin(log_likelihood[one:other])))
-    bounds.append(len(log_likelihood))
-    return [(start, end) for start, end in pairwise(bounds) if end > start]
 
 
 def widened(estimate: Estimate, others: Sequence[tuple[float, Estimate]]) -> Estimate:

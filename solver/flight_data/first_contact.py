@@ -1,12 +1,12 @@
 """The first contact of a window, by the evidence of all indicators over all times it may have."""
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from solver.arrays import Array
 from solver.flight_data.alignment import Series, best
-from solver.flight_data.ambiguity import parts
 from solver.flight_data.contacts import (
     ONSET,
     SPIN_UP,
@@ -127,7 +127,7 @@ def _weighed(
     weight = np.exp(total - total.max())
     weight /= weight.sum()
     found = []
-    for start, end in parts(total, round(_APART / _STEP), np.log(_LEAST_CHANCE) / _TEMPER):
+    for start, end in _hypotheses(total):
         chance = float(weight[start:end].sum() ** _TEMPER)
         if chance > _LEAST_CHANCE:
             peak = float(grid[start + int(np.argmax(total[start:end]))])
@@ -158,6 +158,23 @@ def _doubted(log: Array) -> Array:
     """Log likelihood on a grid with the chance that it speaks of something else spread over it."""
     own = np.exp(log - log.max())
     return np.asarray(np.log((1 - _DOUBT) * own / own.sum() + _DOUBT / len(log)))
+
+
+def _hypotheses(total: Array) -> list[tuple[int, int]]:
+    """Ranges of indices around the peaks that stand apart, parted at the lowest value between."""
+    apart = round(_APART / _STEP)
+    peaks: list[int] = []
+    for k in np.argsort(-total):
+        if total[k] < total.max() + np.log(_LEAST_CHANCE) / _TEMPER:
+            break
+        if all(abs(k - other) >= apart for other in peaks):
+            peaks.append(int(k))
+    peaks.sort()
+    bounds = [0]
+    for one, other in pairwise(peaks):
+        bounds.append(one + int(np.argmin(total[one:other])))
+    bounds.append(len(total))
+    return list(pairwise(bounds))
 
 
 def _timed(
