@@ -1,4 +1,4 @@
-"""Contacts after the first: the main wheels again after a bounce, and the nose wheel."""
+"""Contacts of the main wheels after the first one: after a bounce, or after the nose wheel."""
 
 from dataclasses import dataclass, replace
 
@@ -12,12 +12,12 @@ from solver.flight_data.contacts import (
     ContactKind,
     ContactTime,
     Rise,
+    main_switches,
     rises,
     speaks,
-    switches_of,
     timed,
 )
-from solver.flight_data.geometry import Geometry, Place, Wheel
+from solver.flight_data.geometry import Geometry
 from solver.flight_data.onset import indicator
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.touchdown import Courses
@@ -28,7 +28,7 @@ from solver.flight_data.window import Window
 #: Shortest time between two contacts of the main wheels [s].
 SHORTEST = 0.35
 
-#: Longest time after the first contact in which the aircraft bounces or puts its nose down [s].
+#: Longest time after the first contact in which the aircraft bounces [s].
 LONGEST = 8.0
 
 #: Rises that are weaker are no contact [suddenness].
@@ -52,7 +52,7 @@ _ONE_OFF = (-0.12, 0.96, 3.13, 0.63)
 #: one that was not.
 _LEAST_ODDS = -0.7
 
-#: How long after the smoothed height of the second wheels passes zero they may still touch [s].
+#: How long after the smoothed height of the mains passes zero they may still touch [s].
 _AFTER_DOWN = 0.6
 
 #: Part of the stated deviation of their height that is left on the synthetic fleet: the smoother
@@ -86,7 +86,7 @@ def later_contacts(
     geometry: Geometry,
     first: ContactTime,
 ) -> list[ContactTime]:
-    """Contacts after the first one, in order of time.
+    """Contacts of the main wheels after the first contact, in order of time.
 
     Parameters
     ----------
@@ -101,14 +101,10 @@ def later_contacts(
     end = min(first.time + LONGEST, float(courses.vertical.time[-1]) - 0.5)
     found = _bounces(window, normal, courses, geometry, first, end)
     if first.kind is ContactKind.NOSE_FIRST:
-        wheels, kind = geometry.mains, ContactKind.MAINS
-    else:
-        wheels, kind = geometry.of(Place.NOSE), ContactKind.DEROTATION
-    other = _coming_down(window, courses, geometry, first, end, wheels, kind)
-    if other is not None:
-        if kind is ContactKind.MAINS:  # their first contact is no bounce
-            found = [contact for contact in found if contact.time > other.time + SHORTEST]
-        found.append(other)
+        mains = _mains_down(window, courses, geometry, first, end)
+        if mains is not None:  # their first contact is no bounce
+            found = [contact for contact in found if contact.time > mains.time + SHORTEST]
+            found.append(mains)
     return sorted(found, key=lambda contact: contact.time)
 
 
@@ -189,20 +185,12 @@ def _came_down(
     return replace(contact, sd=float(np.hypot(contact.sd, _HOP_SD)), chance=chance)
 
 
-def _coming_down(
-    window: Window,
-    courses: Courses,
-    geometry: Geometry,
-    first: ContactTime,
-    end: float,
-    wheels: tuple[Wheel, ...],
-    kind: ContactKind,
+def _mains_down(
+    window: Window, courses: Courses, geometry: Geometry, first: ContactTime, end: float
 ) -> ContactTime | None:
-    """First time at which the wheels that did not touch first come down to the ground."""
-    if not wheels:
-        return None
+    """First time at which the main wheels come down after the nose wheel."""
     grid = np.arange(first.time + 0.02, end, 0.01)
-    height, sd = lowest_course(courses, geometry, wheels, grid)
+    height, sd = lowest_course(courses, geometry, geometry.mains, grid)
     down = np.flatnonzero(height < 0)
     if len(down) == 0:
         return None
@@ -210,9 +198,8 @@ def _coming_down(
     near = grid < crossing + _AFTER_DOWN
     log = first_time_down(grid[near], height[near], _LEFT_OF_DEVIATION * sd[near])
     indicators = [indicator("wheel height", grid[near], log)]
-    places = (Place.NOSE,) if kind is ContactKind.DEROTATION else (Place.LEFT, Place.RIGHT)
-    switches = switch_indicator("ground switches", switches_of(window, *places), grid[near])
+    switches = switch_indicator("ground switches", main_switches(window), grid[near])
     if switches is not None:
         indicators.append(switches)
     result = vote(grid[near], indicators)
-    return ContactTime(kind, result.time, result.sd, result)
+    return ContactTime(ContactKind.MAINS, result.time, result.sd, result)

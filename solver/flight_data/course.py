@@ -53,6 +53,7 @@ def smooth_course(
     nodes: Array,
     opened: tuple[tuple[float, float, float], ...] = (),
     activity: Array = ATTITUDE_ACTIVITY,
+    ground: tuple[float, float] = (np.inf, 0.0),
 ) -> Course:
     """Smooth the samples of one quantity, whose second derivative is white noise.
 
@@ -67,6 +68,9 @@ def smooth_course(
     activity : (k,) array
         Densities tried; the results are averaged by how likely each makes the samples, so that
         neither a quiet nor a busy approach is given a wrong certainty.
+    ground : (from, density)
+        Density from a time on, instead of those tried: an aircraft that rolls quietly must not
+        make its approach look quiet.
 
     Returns
     -------
@@ -79,7 +83,7 @@ def smooth_course(
     """
     samples = _merged(series, float(nodes[0]), float(nodes[-1]))
     grid = np.unique(np.concatenate([nodes, samples[0]]))
-    results = [smooth(_system(grid, samples, density, opened)) for density in activity]
+    results = [smooth(_system(grid, samples, density, opened, ground)) for density in activity]
     likelihood = np.array([result.log_likelihood for result in results])
     weight = np.exp(likelihood - likelihood.max())
     weight /= weight.sum()
@@ -119,11 +123,12 @@ def _system(
     samples: tuple[Array, Array, Array],
     density: float,
     opened: tuple[tuple[float, float, float], ...],
+    ground: tuple[float, float],
 ) -> LinearSystem:
     time, value, variance = samples
     dt = np.diff(grid)
     middle = grid[:-1] + dt / 2
-    level = np.full(len(dt), density)
+    level = np.where(middle < ground[0], density, ground[1])
     for start, end, least in opened:
         inside = (middle >= start) & (middle <= end)
         level[inside] = np.maximum(level[inside], least)

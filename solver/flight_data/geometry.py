@@ -51,6 +51,8 @@ class Geometry:
     centre_of_gravity_sd: float = 0.05  #: of its station [m]
     static_closure: float = 0.2  #: of strut and tyre of a main gear, aircraft rolling [m]
     static_closure_sd: float = 0.1  #: servicing of the struts, lift left [m]
+    rolling_pitch: float = 0.0  #: against the runway, on all wheels [rad]
+    rolling_pitch_sd: float = np.deg2rad(0.22)  #: servicing, struts at work [rad]
 
     def of(self, place: Place) -> tuple[Wheel, ...]:
         """Wheels at a place."""
@@ -106,32 +108,64 @@ def geometry_on_gears(
         wheels=tuple(wheels),
         installation=installation or usual_installation(centre_of_gravity, gears),
         centre_of_gravity_sd=centre_of_gravity_sd,
-        static_closure=_static_closure(gears, wheels, centre_of_gravity, mass),
+        static_closure=_main_closure(gears, wheels, centre_of_gravity, mass),
+        rolling_pitch=_rolling_pitch(gears, wheels, centre_of_gravity, mass),
     )
 
 
-def _static_closure(
+def _main_closure(
     gears: tuple[Gear, ...], wheels: list[Wheel], centre_of_gravity: Array, mass: float
 ) -> float:
-    """Closure of strut and tyre of a main gear that carries its share of the weight [m].
-
-    Oleo as a gas spring at rest (NACA Report 1154), tyre by its own static law.
-    """
+    """Closure of strut and tyre of a main gear that carries its share of the weight [m]."""
     mains = [
         gear for gear, wheel in zip(gears, wheels, strict=True) if wheel.place is not Place.NOSE
     ]
-    others = [w.position[0] for w in wheels if w.place is Place.NOSE]
-    share = 1.0
-    if others:
-        base = mains[0].pivot[0] - others[0]
-        share = float((centre_of_gravity[0] - others[0]) / base)
-    load = share * mass * GRAVITY / len(mains)
-    strut, tyre = mains[0].strut, mains[0].tyre
+    share = 1.0 - _nose_share(gears, wheels, centre_of_gravity)
+    return _static_closure(mains[0], share * mass * GRAVITY / len(mains))
+
+
+def _rolling_pitch(
+    gears: tuple[Gear, ...], wheels: list[Wheel], centre_of_gravity: Array, mass: float
+) -> float:
+    """Pitch at which the closed struts and tyres of nose and mains are on one line [rad].
+
+    Lift that is left hardly matters: it relieves both.
+    """
+    noses = [n for n, wheel in enumerate(wheels) if wheel.place is Place.NOSE]
+    mains = [n for n, wheel in enumerate(wheels) if wheel.place is not Place.NOSE]
+    if not noses or not mains:
+        return 0.0
+    nose, main = wheels[noses[0]].position, wheels[mains[0]].position
+    load = _nose_share(gears, wheels, centre_of_gravity) * mass * GRAVITY / len(noses)
+    deeper = _main_closure(gears, wheels, centre_of_gravity, mass) - _static_closure(
+        gears[noses[0]], load
+    )
+    return float((deeper + main[2] - nose[2]) / (main[0] - nose[0]))
+
+
+def _nose_share(gears: tuple[Gear, ...], wheels: list[Wheel], centre_of_gravity: Array) -> float:
+    """Part of the weight that the nose gear carries, by the lever arms of the pivots."""
+    pairs = list(zip(gears, wheels, strict=True))
+    main = next(float(gear.pivot[0]) for gear, wheel in pairs if wheel.place is not Place.NOSE)
+    nose = next(
+        (float(wheel.position[0]) for _, wheel in pairs if wheel.place is Place.NOSE), -np.inf
+    )
+    return float((main - centre_of_gravity[0]) / (main - nose))
+
+
+def _static_closure(gear: Gear, load: float) -> float:
+    """Closure of strut and tyre of a gear under a load [m].
+
+    Oleo as a gas spring at rest (NACA Report 1154), tyre by its own static law.
+    """
+    strut, tyre = gear.strut, gear.tyre
     volume, area = strut.initial_gas_volume, strut.pneumatic_area
     preload = strut.initial_gas_pressure * area
     packed = (preload / load) ** (1 / strut.polytropic_exponent) if load > preload else 1.0
     stroke = min(volume / area * (1 - packed), strut.full_stroke)
-    deflection = (load / tyre.count / tyre.vertical_coefficient) ** (1 / tyre.vertical_exponent)
+    deflection = (max(load, 0.0) / tyre.count / tyre.vertical_coefficient) ** (
+        1 / tyre.vertical_exponent
+    )
     return float(stroke + deflection)
 
 

@@ -9,6 +9,7 @@ from solver.flight_data.ambiguity import widened, widened_state
 from solver.flight_data.bounces import later_contacts
 from solver.flight_data.contacts import ContactKind, ContactTime
 from solver.flight_data.datum import Datum
+from solver.flight_data.derotation import nose_contact
 from solver.flight_data.first_contact import first_contact, is_nose_first, nose_first
 from solver.flight_data.geometry import Geometry
 from solver.flight_data.parameter import Parameter
@@ -98,6 +99,11 @@ def _followed(
     contacts = [first, *later_contacts(window, normal, courses, geometry, first)]
     if len(contacts) > 1:
         courses = smooth_window(window, normal, geometry, contacts, datum)
+    if first.kind is not ContactKind.NOSE_FIRST:
+        nose = nose_contact(window, normal, courses, geometry, contacts)
+        if nose is not None:
+            contacts = sorted([*contacts, nose], key=lambda contact: contact.time)
+            courses = smooth_window(window, normal, geometry, contacts, datum)
     return courses, tuple(_found(contact, courses, geometry) for contact in contacts)
 
 

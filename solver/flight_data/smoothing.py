@@ -28,9 +28,12 @@ BEFORE, AFTER = 9.0, 7.0
 #: After so long the aircraft rolls, unless it bounced meanwhile [s].
 SETTLING = 3.0
 
-#: Spectral density of the angular acceleration while the ground acts: half a rad/s2 over a third of
+#: Spectral density of the angular acceleration while the ground acts: half a rad/s2 over a fifth of
 #: a second [rad2/s3].
-SHOCK = 0.1
+SHOCK = 0.05
+
+#: The same of an aircraft that rolls on its wheels [rad2/s3].
+ROLLING = 1e-3
 
 #: In heading and drift the ground acts less [rad2/s3].
 YAW_SHOCK = 0.01
@@ -60,8 +63,8 @@ def smooth_window(
     nodes = np.unique(np.concatenate([[span[0], span[1]], [c.time for c in contacts]]))
     shocks = [(c.time, c.time + SHOCK_SPAN, SHOCK) for c in contacts]
     yaw_shocks = [(start, end, YAW_SHOCK) for start, end, _ in shocks]
-    pitch = _course(window, Parameter.PITCH, nodes, shocks, ATTITUDE_ACTIVITY)
-    roll = _course(window, Parameter.ROLL, nodes, shocks, ATTITUDE_ACTIVITY)
+    pitch = _course(window, Parameter.PITCH, nodes, shocks, ATTITUDE_ACTIVITY, (first, ROLLING))
+    roll = _course(window, Parameter.ROLL, nodes, shocks, ATTITUDE_ACTIVITY, (first, ROLLING))
     if pitch is None or roll is None:
         raise UndeterminedError(_NO_ATTITUDE)
     heading = _course(window, Parameter.HEADING, nodes, yaw_shocks, YAW_ACTIVITY)
@@ -103,12 +106,13 @@ def _course(
     nodes: Array,
     opened: list[tuple[float, float, float]],
     activity: Array,
+    ground: tuple[float, float] = (np.inf, 0.0),
 ) -> Course | None:
     series = aligned(window, parameter)
     usable = tuple(s for s in series if np.sum((s.time >= nodes[0]) & (s.time <= nodes[-1])) >= 2)
     if not usable:
         return None
-    return smooth_course(usable, nodes, tuple(opened), activity)
+    return smooth_course(usable, nodes, tuple(opened), activity, ground)
 
 
 _NO_ATTITUDE = Shortcoming(

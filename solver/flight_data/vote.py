@@ -80,6 +80,41 @@ def switch_indicator(name: str, switches: list[Series], grid: Array) -> Indicato
     return indicator(name, grid, np.log(0.3 + 0.7 * early) - after)
 
 
+def closing_indicator(name: str, switch: Series, grid: Array, takes: Array) -> Indicator | None:
+    """Weigh one gear's own switch: it closes a lateness after its stroke, anything up to the most.
+
+    Parameters
+    ----------
+    name : str
+    switch : Series
+    grid : (n,) array
+        Times of the contact considered, rising [s].
+    takes : (n,) array
+        Time the strut takes until the switch's stroke [s].
+
+    Returns
+    -------
+    Indicator or None
+        None if the switch does not close in the first seconds after the grid began.
+    """
+    closed = np.flatnonzero((switch.value[1:] > 0.5) & (switch.value[:-1] < 0.5)) + 1
+    closed = closed[switch.time[closed] >= grid[0]]
+    if len(closed) == 0 or switch.time[closed[0]] > grid[-1] + _LONGEST:
+        return None
+    most = max(switch.entry.late_most.value, _SOFT)
+    shown, open_before = switch.time[closed[0]], switch.time[closed[0] - 1]
+
+    def late_by(time: float) -> Array:
+        return np.asarray(np.clip((time - takes - grid) / most, 0.0, 1.0))
+
+    between = late_by(float(shown)) - late_by(float(open_before))
+    kissed = np.where(grid < shown, _KISSED, 0.0)
+    return indicator(name, grid, np.log((1 - _KISSED) * between + kissed + _WRONG))
+
+
+#: Chance that a wheel touches without its switch telling, or that a switch tells anything else.
+_KISSED, _WRONG = 0.1, 1e-4
+
 #: Time a strut may take until its switch's stroke [s].
 _COMPRESSION = 0.4
 
@@ -106,22 +141,22 @@ def first_time_down(time: Array, height: Array, sd: Array) -> Array:
     -------
     (n,) array
     """
-    speed = np.maximum(-np.gradient(height, time), _LEAST_SPEED)
+    speed = np.maximum(-np.gradient(height, time), LEAST_SPEED)
     here = -0.5 * (height / sd) ** 2 - np.log(sd) + np.log(speed)
     some = slice(None, None, 5)
     passed = time[:, None] - time[None, some]
     margin = (height[None, some] - height[:, None]) / (
-        _HEIGHT_DRIFT[0] + _HEIGHT_DRIFT[1] * np.maximum(passed, 0.0)
+        HEIGHT_DRIFT[0] + HEIGHT_DRIFT[1] * np.maximum(passed, 0.0)
     )
     not_before = np.where(passed > 0, log_ndtr(margin), 0.0).min(axis=1)
     return np.asarray(here + not_before)
 
 
 #: How far two smoothed heights are off each other, at once [m] and per time between them [m/s].
-_HEIGHT_DRIFT = (0.03, 0.06)
+HEIGHT_DRIFT = (0.03, 0.06)
 
 #: Least speed at which a height is taken to pass zero [m/s].
-_LEAST_SPEED = 0.1
+LEAST_SPEED = 0.1
 
 
 def height_indicator(name: str, grid: Array, height: Array, sd: Array) -> Indicator | None:
@@ -135,5 +170,5 @@ def height_indicator(name: str, grid: Array, height: Array, sd: Array) -> Indica
     """
     if not (height.min() < 3 * sd.max() and height.max() > -3 * sd.max()):
         return None
-    speed = np.maximum(-np.gradient(height, grid), _LEAST_SPEED)
+    speed = np.maximum(-np.gradient(height, grid), LEAST_SPEED)
     return indicator(name, grid, -0.5 * (height / sd) ** 2 + np.log(speed))
