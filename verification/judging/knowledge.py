@@ -4,16 +4,13 @@ Only landings near the limit count here, as they were flown and without weights:
 the limit is told by any method.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from verification.judging.methods import Answers
 from verification.judging.shares import Share, operating_curve, weighted_share
-
-#: True use of a limit of the landings that count.
-NEAR = (0.7, 1.4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,39 +27,24 @@ class Knowledge:
 
 
 def compared_knowledge(answers: Sequence[Answers]) -> tuple[Knowledge, ...]:
-    """Estimates of each recorder, and with parts of the truth; those without landings left out."""
-    near = [a for a in answers if a.is_complete and NEAR[0] <= a.utilisation <= NEAR[1]]
-    by_rate = [
-        (f"{name}, {rate:g} Hz", rate, value)
-        for name, value in (
-            ("state by the smoother", lambda a: a.estimate),
-            ("state after assimilation", lambda a: a.corrected),
-        )
-        for rate in sorted({a.rate for a in near})
-    ]
-    found = [_knowledge(name, [a for a in near if a.rate == rate], v) for name, rate, v in by_rate]
-    found += [
-        _knowledge("true state, aircraft as defined", near, lambda a: a.with_true_state),
-        _knowledge(
-            "state after assimilation, aircraft as it was", near, lambda a: a.with_true_aircraft
-        ),
-    ]
-    return tuple(each for each in found if each is not None)
+    """Every kind of knowledge on the landings that have all of them, so that rows compare."""
+    near = [each for each in answers if each.knowledge]
+    if not near:
+        return ()
+    names = tuple(max(near, key=lambda each: len(each.knowledge)).knowledge)
+    complete = [each for each in near if set(names) <= set(each.knowledge)]
+    return tuple(_knowledge(name, complete) for name in names)
 
 
-def _knowledge(
-    name: str, answers: Sequence[Answers], value: Callable[[Answers], float | None]
-) -> Knowledge | None:
-    pairs = [(v, a.utilisation) for a in answers if (v := value(a)) is not None]
-    if not pairs:
-        return None
-    used, true = np.array(pairs).T
+def _knowledge(name: str, answers: Sequence[Answers]) -> Knowledge:
+    used = np.array([each.knowledge[name] for each in answers])
+    true = np.array([each.utilisation for each in answers])
     hard, alarm, ones = true > 1.0, used > 1.0, np.ones(len(true))
     error = used / true - 1.0
     told = bool(hard.any()) and not bool(hard.all())
     return Knowledge(
         name=name,
-        landings=len(pairs),
+        landings=len(answers),
         error_mean=float(error.mean()),
         error_sd=float(error.std()),
         wrong_calls=weighted_share(~hard[alarm], ones[alarm]),

@@ -35,8 +35,6 @@ PERFECT = Answers(
     sink_corrected=1.0,
     corrected=0.5,
     probability=0.0,
-    with_true_state=0.5,
-    with_true_aircraft=0.5,
 )
 
 
@@ -57,8 +55,7 @@ def landings(count: int = 40) -> Iterator[Answers]:
             is_held=is_hard,
             corrected=used,
             probability=float(is_hard),
-            with_true_state=used,
-            with_true_aircraft=used,
+            knowledge={"little": used, "all": used},
         )
 
 
@@ -90,7 +87,7 @@ def test_a_window_that_cannot_tell_is_inspected_and_never_missed() -> None:
     fleet = list(landings())
     silent = {
         "estimate": None, "corrected": None, "probability": None, "is_held": True,
-        "is_complete": False, "with_true_state": None, "with_true_aircraft": None,
+        "is_complete": False, "knowledge": {},
     }  # fmt: skip
     fleet[1] = dataclasses.replace(fleet[1], undetermined="no_radio_altitude", **silent)
     score = score_fleet(fleet, seed=1)
@@ -120,21 +117,27 @@ def test_crews_reports_are_as_often_right_as_the_maker_says() -> None:
     assert REPORTS_RIGHT <= right < 2.0 * REPORTS_RIGHT
 
 
-def test_knowledge_is_compared_recorder_by_recorder() -> None:
-    fleet = [dataclasses.replace(a, rate=(8.0, 16.0)[a.number // 2 % 2]) for a in landings()]
-    names = [each.name for each in compared_knowledge(fleet)]
-    assert names == [
-        "state by the smoother, 8 Hz",
-        "state by the smoother, 16 Hz",
-        "state after assimilation, 8 Hz",
-        "state after assimilation, 16 Hz",
-        "true state, aircraft as defined",
-        "state after assimilation, aircraft as it was",
-    ]
+def test_knowledge_is_compared_on_the_same_landings() -> None:
+    """A landing that lacks one kind of knowledge counts for none."""
+    fleet = list(landings())
+    fleet[3] = dataclasses.replace(fleet[3], knowledge={"little": 1.0})
+    fleet[5] = dataclasses.replace(fleet[5], knowledge={})
+    found = compared_knowledge(fleet)
+    assert [(each.name, each.landings) for each in found] == [("little", 38), ("all", 38)]
+
+
+def test_without_a_landing_near_the_limit_nothing_is_compared() -> None:
+    assert compared_knowledge([PERFECT]) == ()
 
 
 def test_errors_are_relative_to_the_truth() -> None:
-    fleet = [dataclasses.replace(a, estimate=1.1 * a.utilisation) for a in landings()]
-    (smoother, *_) = compared_knowledge(fleet)
-    assert smoother.error_mean == pytest.approx(0.1)
-    assert smoother.error_sd == pytest.approx(0.0, abs=1e-12)
+    """All 10 % too large: the half at 0.8 is called sound still, the other hard."""
+    fleet = [
+        dataclasses.replace(a, knowledge={"a": 1.1 * a.utilisation, "b": 0.8 * a.utilisation})
+        for a in landings()
+    ]
+    large, small = compared_knowledge(fleet)
+    assert large.error_mean == pytest.approx(0.1)
+    assert large.error_sd == pytest.approx(0.0, abs=1e-12)
+    assert (large.wrong_calls.value, large.misses.value) == (0.0, 0.0)
+    assert small.misses.value == 1.0
