@@ -9,8 +9,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from verification.judging.given_truth import (
+    ASSIMILATED,
+    LEARNED,
+    SMOOTHED,
+    TRUE_LANDING,
+    TRUE_STATE,
+    alone,
+    together,
+)
 from verification.judging.methods import Answers
 from verification.judging.shares import Share, operating_curve, weighted_share
+from verification.judging.true_parts import Part
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,9 +41,53 @@ def compared_knowledge(answers: Sequence[Answers]) -> tuple[Knowledge, ...]:
     near = [each for each in answers if each.knowledge]
     if not near:
         return ()
-    names = tuple(max(near, key=lambda each: len(each.knowledge)).knowledge)
-    complete = [each for each in near if set(names) <= set(each.knowledge)]
-    return tuple(_knowledge(name, complete) for name in names)
+    names = set().union(*(each.knowledge for each in near))
+    complete = [each for each in near if names <= set(each.knowledge)]
+    return tuple(_knowledge(name, complete) for name in sorted(names, key=_place))
+
+
+#: Rows begin with these, in this order; of those alike the slower recorder comes first.
+_ORDER = (
+    SMOOTHED,
+    ASSIMILATED,
+    LEARNED,
+    *(alone(part) for part in Part),
+    *(together(part) for part in Part),
+    TRUE_STATE,
+    TRUE_LANDING,
+)
+
+
+def _place(name: str) -> tuple[int, float]:
+    start, _, rate = name.partition(", ")
+    if not rate.endswith(" Hz"):
+        return _ORDER.index(name), 0.0
+    return _ORDER.index(start), float(rate.removesuffix(" Hz"))
+
+
+@dataclass(frozen=True, slots=True)
+class Learned:
+    """How much less uncertain something about the aircraft is after assimilation."""
+
+    parameter: str
+    left: dict[float, float]  #: mean deviation after over before, by the recorder's rate [Hz]
+
+
+def learned_parameters(answers: Sequence[Answers]) -> tuple[Learned, ...]:
+    """Mean over the landings whose response was explained, for each parameter of the aircraft."""
+    told = [each for each in answers if each.learned]
+    names = told[0].learned if told else {}
+    rates = sorted({each.rate for each in told})
+    return tuple(
+        Learned(
+            name,
+            {
+                rate: float(np.mean([a.learned[name] for a in told if a.rate == rate]))
+                for rate in rates
+            },
+        )
+        for name in names
+    )
 
 
 def _knowledge(name: str, answers: Sequence[Answers]) -> Knowledge:

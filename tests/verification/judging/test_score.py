@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from verification.judging.knowledge import compared_knowledge
+from verification.judging.knowledge import compared_knowledge, learned_parameters
 from verification.judging.methods import Answers
 from verification.judging.score import (
     REPORTS_RIGHT,
@@ -15,6 +15,8 @@ from verification.judging.score import (
     score_fleet,
     truth_of,
 )
+
+SMOOTHED_8, ALL = "state by the smoother, 8 Hz", "all of these, 8 Hz"
 
 PERFECT = Answers(
     number=0,
@@ -55,7 +57,7 @@ def landings(count: int = 40) -> Iterator[Answers]:
             is_held=is_hard,
             corrected=used,
             probability=float(is_hard),
-            knowledge={"little": used, "all": used},
+            knowledge={ALL: used, SMOOTHED_8: used},
         )
 
 
@@ -118,12 +120,24 @@ def test_crews_reports_are_as_often_right_as_the_maker_says() -> None:
 
 
 def test_knowledge_is_compared_on_the_same_landings() -> None:
-    """A landing that lacks one kind of knowledge counts for none."""
+    """A landing that lacks one kind of knowledge counts for none; the least comes first."""
     fleet = list(landings())
-    fleet[3] = dataclasses.replace(fleet[3], knowledge={"little": 1.0})
+    fleet[3] = dataclasses.replace(fleet[3], knowledge={SMOOTHED_8: 1.0})
     fleet[5] = dataclasses.replace(fleet[5], knowledge={})
     found = compared_knowledge(fleet)
-    assert [(each.name, each.landings) for each in found] == [("little", 38), ("all", 38)]
+    assert [(each.name, each.landings) for each in found] == [(SMOOTHED_8, 38), (ALL, 38)]
+
+
+def test_what_was_learned_is_told_by_the_recorders_rate() -> None:
+    """Means by counting; a landing of which nothing was learned does not count."""
+    fleet = [
+        dataclasses.replace(a, rate=(8.0, 16.0)[a.number % 2], learned={"mass": 0.1 * a.number})
+        for a in list(landings())[:4]
+    ]
+    (mass,) = learned_parameters([*fleet, PERFECT])
+    assert mass.parameter == "mass"
+    assert mass.left == {8.0: pytest.approx(0.1), 16.0: pytest.approx(0.2)}
+    assert learned_parameters([PERFECT]) == ()
 
 
 def test_without_a_landing_near_the_limit_nothing_is_compared() -> None:
@@ -133,7 +147,9 @@ def test_without_a_landing_near_the_limit_nothing_is_compared() -> None:
 def test_errors_are_relative_to_the_truth() -> None:
     """All 10 % too large: the half at 0.8 is called sound still, the other hard."""
     fleet = [
-        dataclasses.replace(a, knowledge={"a": 1.1 * a.utilisation, "b": 0.8 * a.utilisation})
+        dataclasses.replace(
+            a, knowledge={SMOOTHED_8: 1.1 * a.utilisation, ALL: 0.8 * a.utilisation}
+        )
         for a in landings()
     ]
     large, small = compared_knowledge(fleet)
