@@ -19,6 +19,7 @@ from verification.judging.given_truth import (
     together,
 )
 from verification.judging.methods import Answers
+from verification.judging.score import corrected_of, truth_of
 from verification.judging.shares import Share, operating_curve, weighted_share
 from verification.judging.true_parts import Part
 
@@ -31,9 +32,12 @@ class Knowledge:
     landings: int
     error_mean: float  #: of the use of a limit over the true one, less 1
     error_sd: float
+    error_size: float  #: median of its absolute value: one landing far off does not shift it
     wrong_calls: Share
     misses: Share
     area: float
+    wrong_calls_in_service: Share  #: of all landings, weighted; those far from the limit as ever
+    misses_in_service: Share
 
 
 def compared_knowledge(answers: Sequence[Answers]) -> tuple[Knowledge, ...]:
@@ -43,7 +47,7 @@ def compared_knowledge(answers: Sequence[Answers]) -> tuple[Knowledge, ...]:
         return ()
     names = set().union(*(each.knowledge for each in near))
     complete = [each for each in near if names <= set(each.knowledge)]
-    return tuple(_knowledge(name, complete) for name in sorted(names, key=_place))
+    return tuple(_knowledge(name, complete, answers) for name in sorted(names, key=_place))
 
 
 #: Rows begin with these, in this order; of those alike the slower recorder comes first.
@@ -90,18 +94,25 @@ def learned_parameters(answers: Sequence[Answers]) -> tuple[Learned, ...]:
     )
 
 
-def _knowledge(name: str, answers: Sequence[Answers]) -> Knowledge:
-    used = np.array([each.knowledge[name] for each in answers])
-    true = np.array([each.utilisation for each in answers])
+def _knowledge(name: str, near: Sequence[Answers], every: Sequence[Answers]) -> Knowledge:
+    used = np.array([each.knowledge[name] for each in near])
+    true = np.array([each.utilisation for each in near])
     hard, alarm, ones = true > 1.0, used > 1.0, np.ones(len(true))
+    # A window without a verdict is inspected.
+    told = [(each.knowledge.get(name, corrected_of(each)), each) for each in every]
+    called = np.array([value is None or value > 1.0 for value, _ in told])
+    is_hard, weights = truth_of(every)
     error = used / true - 1.0
-    told = bool(hard.any()) and not bool(hard.all())
+    has_both = bool(hard.any()) and not bool(hard.all())
     return Knowledge(
         name=name,
-        landings=len(answers),
+        landings=len(near),
         error_mean=float(error.mean()),
         error_sd=float(error.std()),
+        error_size=float(np.median(np.abs(error))),
         wrong_calls=weighted_share(~hard[alarm], ones[alarm]),
         misses=weighted_share(~alarm[hard], ones[hard]),
-        area=operating_curve(used, hard, ones).area if told else float("nan"),
+        area=operating_curve(used, hard, ones).area if has_both else float("nan"),
+        wrong_calls_in_service=weighted_share(~is_hard[called], weights[called]),
+        misses_in_service=weighted_share(~called[is_hard], weights[is_hard]),
     )

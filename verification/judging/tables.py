@@ -175,9 +175,12 @@ def knowledge_table(knowledge: Sequence[Knowledge]) -> Table:
             str(each.landings),
             _signed(each.error_mean),
             percent(each.error_sd),
+            percent(each.error_size),
             with_interval(each.wrong_calls),
             with_interval(each.misses),
             f"{each.area:.3f}" if np.isfinite(each.area) else "–",
+            with_interval(each.wrong_calls_in_service),
+            with_interval(each.misses_in_service),
         )
         for each in knowledge
     ]
@@ -187,7 +190,9 @@ def knowledge_table(knowledge: Sequence[Knowledge]) -> Table:
         "at 8 Hz",
         (
             "the use of a limit by", "landings", "mean error", "scatter of the error",
-            "wrong calls", "missed", "area under the curve",
+            "median size", "wrong calls", "missed", "area under the curve",
+            "wrong calls, in service",
+            "missed, in service",
         ),
         tuple(rows),
     )  # fmt: skip

@@ -155,5 +155,17 @@ def test_errors_are_relative_to_the_truth() -> None:
     large, small = compared_knowledge(fleet)
     assert large.error_mean == pytest.approx(0.1)
     assert large.error_sd == pytest.approx(0.0, abs=1e-12)
+    assert (large.error_size, small.error_size) == pytest.approx((0.1, 0.2))
     assert (large.wrong_calls.value, large.misses.value) == (0.0, 0.0)
     assert small.misses.value == 1.0
+
+
+def test_in_service_landings_far_from_the_limit_count_as_they_were_told() -> None:
+    """Twenty hard: one is not near and missed all the same, the others are told by `ALL`."""
+    fleet = list(landings())
+    fleet[1] = dataclasses.replace(fleet[1], knowledge={}, corrected=0.9, weight=2.0)
+    fleet[2] = dataclasses.replace(fleet[2], knowledge={SMOOTHED_8: 0.8, ALL: 1.3}, weight=3.0)
+    smoothed, whole = compared_knowledge(fleet)
+    assert smoothed.misses_in_service.value == pytest.approx(2.0 / 21.0)
+    assert smoothed.wrong_calls_in_service.value == 0.0
+    assert whole.wrong_calls_in_service.value == pytest.approx(3.0 / (3.0 + 19.0))
