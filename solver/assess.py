@@ -35,7 +35,7 @@ from solver.inertia_relief.reduced import ReducedModel
 from solver.inertia_relief.response import landing_response
 from solver.landing.compilation import compile_kernels as compile_landing
 from solver.landing.history import LandingHistory
-from solver.landing.simulate import simulate_landing
+from solver.landing.sequence import simulate_contacts, until_next
 from solver.probability.compilation import compile_kernels as compile_samples
 from solver.probability.exceedance import Nominal
 from solver.probability.limit_probability import limit_probability
@@ -143,9 +143,9 @@ def assess_landing(
 
     clock = _Clock()
     histories: list[LandingHistory] = []
-    for number, contact in enumerate(record.contacts):
-        progress("landing simulation", number / len(record.contacts))
-        histories.append(simulate_landing(aircraft, contact))
+    for history in simulate_contacts(aircraft, record.contacts):
+        histories.append(history)
+        progress("landing simulation", len(histories) / len(record.contacts))
     clock.lap("simulation")
 
     reduced = assemble(model.reduced, loading.factors)
@@ -296,7 +296,8 @@ def _limits_of(record: TouchdownRecord, histories: list[LandingHistory]) -> list
             f"contact {number}: {gear.name} did not touch within {history.time[-1]:.1f} s; its "
             "touchdown is not assessed"
             for gear in history.gears
-            if gear.name not in touched
+            # What has not touched by the next contact is looked for there.
+            if gear.name not in touched and math.isinf(until_next(record.contacts, number - 1))
         ]
     notes.append("not assessed: landing-gear internals, fatigue, pre-existing damage, repairs")
     return notes

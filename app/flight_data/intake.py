@@ -156,11 +156,18 @@ def _record(
     places = {wheel.gear: wheel.place for wheel in geometry.wheels}
     landed = [update.found for update in responses.updates]
     # A window that cannot tell is a landing all the same: one contact of which nothing is known.
+    course = _lift_course_deviations(responses)
     record["contacts"] = [
-        _contact(update, _peaks_until(update.found, landed, found.contacts), window, places)
+        _contact(update, _peaks_until(update.found, landed, found.contacts), window, places, course)
         for update in responses.updates[:_MOST_CONTACTS]
     ] or [{}]
     return record
+
+
+def _lift_course_deviations(responses: Assimilation) -> dict[str, float]:
+    """Of what the first contact's response tells of the lift in all of them; empty: nothing."""
+    corrected = [update for update in responses.updates if update.is_corrected]
+    return corrected[0].deviations if corrected else {}
 
 
 def _peaks_until(
@@ -174,7 +181,11 @@ def _peaks_until(
 
 
 def _contact(
-    update: ContactUpdate, peaks_until: float, window: Window, places: dict[str, Place]
+    update: ContactUpdate,
+    peaks_until: float,
+    window: Window,
+    places: dict[str, Place],
+    course: dict[str, float],
 ) -> dict[str, Any]:
     found, contact = update.found, update.contact
     sds = np.sqrt(np.diag(update.uncertainty.matrix))
@@ -194,8 +205,8 @@ def _contact(
         "model": contact.lift.model.value,
         "fraction": _number(contact.lift.fraction, sd["lift_fraction"], "1"),
     }
-    if update.is_corrected:
-        lift, scatter = contact.lift, update.deviations
+    if course:
+        lift, scatter = contact.lift, course
         given["lift"] |= {
             "decay_start": _number(
                 lift.decay_start, lift.decay_start * scatter["decay_start"], "s"

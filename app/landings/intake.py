@@ -248,13 +248,13 @@ class _Conversion:
             pitch_rate=number("pitch_rate"),
             roll_rate=number("roll_rate"),
             yaw_rate=number("yaw_rate"),
-            lift=self._lift(path, given),
+            lift=self._lift(path, given, time),
             time=time,
         )
 
-    def _lift(self, path: str, given: ContactIn) -> Lift:
+    def _lift(self, path: str, given: ContactIn, time: float) -> Lift:
         lift = given.lift or LiftIn(fraction=given.lift_fraction)
-        standard = Lift()
+        standard = Lift().seen_from(time)
 
         def number(name: str, default: float) -> float:
             value = self._number(f"{path}.lift.{name}", getattr(lift, name))

@@ -16,7 +16,7 @@ from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import FoundContact, Reconstruction
 from solver.flight_data.window import Window
 from solver.landing.aircraft import LandingAircraft
-from solver.landing.contact import Contact
+from solver.landing.contact import Contact, Lift
 from solver.landing.contact_uncertainty import CONTACT_COMPONENTS, ContactUncertainty
 
 #: How long after a contact its response is compared: the shock, and the first swing after it [s].
@@ -25,10 +25,11 @@ SPAN = 0.8
 #: Before the next contact so soon nothing of a shock is in the samples [s].
 _SHORTEST = 0.25
 
-#: Measured: two bounces in three would be called unexplained, and sink rates get worse.
+#: With wheels at rest and the lift not yet decaying two bounces in three were called unexplained,
+#: and sink rates got worse; with both carried on it has not been tried again.
 _BOUNCE = (
-    "only the first contact is: the simulation of a bounce begins with wheels at rest, struts "
-    "extended and the lift not yet decaying, which shows in its response"
+    "only the first contact is: the simulation of a bounce begins with every strut extended, also "
+    "that of a nose wheel that had stayed down, which shows in its response"
 )
 
 #: The simulation of the contact before brings these wheels down by itself.
@@ -152,7 +153,15 @@ def assimilate(
     )
     if answer is not None and not answer.misfit.is_explained:
         why = "the stated uncertainties cannot explain the recorded response"
-    return Assimilation((replace(first, corrected=answer, unchanged_because=why), *later))
+    first = replace(first, corrected=answer, unchanged_because=why)
+    return Assimilation((first, *(_with_lift_of(first, each) for each in later)))
+
+
+def _with_lift_of(first: ContactUpdate, later: ContactUpdate) -> ContactUpdate:
+    """Later contact with the course of the lift that the first one's response tells."""
+    course = first.contact.lift.seen_from(later.prior.time)
+    lift = replace(course, fraction=later.prior.lift.fraction)
+    return replace(later, prior=replace(later.prior, lift=lift))
 
 
 def uncorrected(reconstruction: Reconstruction, why: str) -> Assimilation:
@@ -175,7 +184,8 @@ def uncorrected(reconstruction: Reconstruction, why: str) -> Assimilation:
 def contact_of(found: FoundContact, first_time: float) -> Contact:
     """Contact as reconstructed, within the range that a contact may have."""
     values = np.array([getattr(found.state, name).value for name in CONTACT_COMPONENTS])
-    return contact_with(Contact(0.0, 0.0, time=found.time - first_time), values)
+    time = found.time - first_time
+    return contact_with(Contact(0.0, 0.0, lift=Lift().seen_from(time), time=time), values)
 
 
 def _answer(

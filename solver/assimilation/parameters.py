@@ -54,7 +54,7 @@ class ServiceScatter:
 
 
 #: Names of the parameters of the aircraft and its lift besides one gas pressure for each strut.
-_COMMON = (
+SERVICE_PARAMETERS = (
     "orifice",
     "tyre_stiffness",
     "tyre_friction",
@@ -74,7 +74,7 @@ def service_parameters(
 ) -> dict[str, float]:
     """Name and standard deviation of each parameter; all are 0 where nothing is perturbed."""
     found = {GAS_PRESSURE + gear.name: scatter.gas_pressure for gear in aircraft.gears}
-    for name in _COMMON[:-1]:
+    for name in SERVICE_PARAMETERS[:-1]:
         found[name] = getattr(scatter, name)
     found["centre_of_gravity"] = centre_of_gravity_sd
     return found

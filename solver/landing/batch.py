@@ -13,7 +13,8 @@ from solver.errors import SimulationDivergedError
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact
 from solver.landing.history import LandingHistory
-from solver.landing.simulate import SimulationOptions, simulate_landing
+from solver.landing.sequence import Passage
+from solver.landing.simulate import SimulationOptions
 
 Kept = TypeVar("Kept")
 
@@ -28,6 +29,7 @@ def simulate_landings(
     keep: Callable[[int, LandingHistory], Kept],
     options: SimulationOptions | None = None,
     threads: int | None = None,
+    passages: Sequence[Passage] | None = None,
 ) -> list[Kept | SimulationDivergedError]:
     """Simulate landings and keep of each what ``keep`` makes of it, in their order.
 
@@ -40,6 +42,8 @@ def simulate_landings(
     options : SimulationOptions, optional
     threads : int, optional
         All available cores by default.
+    passages : sequence of Passage, optional
+        Of each landing, where it goes on from an earlier contact or ends at a later one.
 
     Returns
     -------
@@ -51,10 +55,11 @@ def simulate_landings(
     RecordError
         A contact or its lift is outside what a landing can be.
     """
+    parts = passages or [Passage()] * len(landings)
 
     def one(place: int) -> Kept | SimulationDivergedError:
         try:
-            history = simulate_landing(*landings[place], options)
+            history = parts[place].simulate(*landings[place], options)
         except SimulationDivergedError as error:
             return error
         return keep(place, history)

@@ -1,6 +1,6 @@
 """The state of an aircraft at a ground contact, and the lift it carries from there."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 
@@ -26,6 +26,13 @@ class Lift:
     decay_time: float = 1.0  #: time constant [s]
     residual_fraction: float = 0.3  #: of the weight, what lift tends to
     recorded_normal_acceleration: float | None = None  #: just before contact, +1 at rest [g]
+
+    def seen_from(self, later: float) -> "Lift":
+        """Return the course as a contact sees it so much later [s]; its fraction is its own.
+
+        The spoilers come out once in a landing, not after every hop.
+        """
+        return replace(self, decay_start=max(self.decay_start - later, 0.0))
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,7 +47,13 @@ def check_contact(contact: Contact) -> None:
             raise RecordError(f"contact {name} {value:g} is outside {low:g} to {high:g}")
 
 
-def initial_state(contact: Contact, airframe: Record, gears: Records, course: Array) -> Array:
+def initial_state(
+    contact: Contact,
+    airframe: Record,
+    gears: Records,
+    course: Array,
+    wheel_speeds: Array | None = None,
+) -> Array:
     """State vector at the first ground contact.
 
     Each strut rests on its extension stop, and each leg on its swing spring, under the weight of
@@ -61,6 +67,8 @@ def initial_state(contact: Contact, airframe: Record, gears: Records, course: Ar
     airframe, gears, course
         As for `solver.landing.equations.evaluate`; the airframe's angle of attack at the contact
         is filled in here.
+    wheel_speeds : (n_gears,) array, optional
+        At which the wheels turn already, forward positive [rad/s]; at rest by default.
 
     Returns
     -------
@@ -74,6 +82,9 @@ def initial_state(contact: Contact, airframe: Record, gears: Records, course: Ar
     state[7:10] = [contact.ground_speed, 0.0, contact.sink_rate]
     state[7:10] -= turn @ np.cross(rate, airframe["centre_of_gravity"])
     state[10:13] = rate
+    if wheel_speeds is not None:
+        end = AIRFRAME_STATES + GEAR_STATES * len(gears)
+        state[AIRFRAME_STATES + 4 : end : GEAR_STATES] = wheel_speeds
     point_velocity = turn.T @ state[7:10] + np.cross(rate, airframe["lift_point"])
     airframe["contact_angle_of_attack"] = angle_of_attack(tuple(point_velocity))
     _hang(state, airframe, gears, course)

@@ -58,7 +58,10 @@ _LOOK = 0.05
 
 
 def simulate_landing(
-    aircraft: LandingAircraft, contact: Contact, options: SimulationOptions | None = None
+    aircraft: LandingAircraft,
+    contact: Contact,
+    options: SimulationOptions | None = None,
+    wheel_speeds: Array | None = None,
 ) -> LandingHistory:
     """Simulate one landing.
 
@@ -68,6 +71,8 @@ def simulate_landing(
     contact : Contact
         State of the whole aircraft's centre of gravity at the first ground contact, and the lift.
     options : SimulationOptions, optional
+    wheel_speeds : (n_gears,) array, optional
+        At which the wheels turn already, forward positive [rad/s]; at rest by default.
 
     Returns
     -------
@@ -83,7 +88,7 @@ def simulate_landing(
     options = options or SimulationOptions()
     check_contact(contact)
     course = lift_course(contact.lift)
-    run = _integrated(aircraft, contact, course, options)
+    run = _integrated(aircraft, contact, course, options, wheel_speeds)
     history = landing_history(aircraft, contact, run)
     error = history.energy.closure_error
     if not error <= options.energy_bound:
@@ -104,7 +109,11 @@ class _Rows(NamedTuple):
 
 
 def _integrated(
-    aircraft: LandingAircraft, contact: Contact, course: LiftCourse, options: SimulationOptions
+    aircraft: LandingAircraft,
+    contact: Contact,
+    course: LiftCourse,
+    options: SimulationOptions,
+    wheel_speeds: Array | None,
 ) -> Run:
     airframe = airframe_record(aircraft)
     gears: Records = np.array(
@@ -114,7 +123,7 @@ def _integrated(
     lift = np.array(
         [course.fraction, course.decay_start, course.decay_time, course.residual_fraction]
     )
-    state = initial_state(contact, airframe, gears, lift)
+    state = initial_state(contact, airframe, gears, lift, wheel_speeds)
     scale = state_scale(len(gears))
 
     interval = options.output_interval

@@ -23,6 +23,7 @@ from solver.inertia_relief.reduced import ReducedModel
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.batch import simulate_landings
 from solver.landing.history import LandingHistory
+from solver.landing.sequence import passage
 from solver.landing.simulate import SimulationOptions
 from solver.probability.corner import corners
 from solver.probability.loadings import CENTRE, loading_points
@@ -78,6 +79,12 @@ class LandingSampler:
         self._model = model
         self._threads = threads
         self._points = loading_points(airframe, nominal.record, nominal.loading)
+        # Every sample's wheels turn as those of the landing as recorded: they follow the runway.
+        befores = [None, *nominal.histories[:-1]]
+        self._passages = [
+            passage(nominal.record.contacts, number, before)
+            for number, before in enumerate(befores)
+        ]
 
     @cached_property
     def _aircraft(self) -> list[LandingAircraft]:
@@ -108,11 +115,13 @@ class LandingSampler:
             for number in contacts
         ]
         width = len(contacts)
+        passages = [self._passages[number] for number in contacts] * len(samples)
         kept = simulate_landings(
             landings,
             lambda place, history: keep(place // width, contacts[place % width], history),
             SAMPLE_OPTIONS,
             self._threads,
+            passages,
         )
         return [kept[first : first + width] for first in range(0, len(kept), width)]
 

@@ -12,6 +12,7 @@ physics forbids is moved to the nearest value it allows:
 * a negative lift, and attitudes beyond what the simulation takes.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -80,6 +81,7 @@ class LandingVariables:
             )
         definition = airframe.definition
         self._contacts = record.contacts
+        self._decay_starts = _decay_starts(record.contacts)
         self._scatter = definition.scatter
         self._gears = len(definition.gears)
         self._zones = len(definition.zones)
@@ -154,13 +156,11 @@ class LandingVariables:
             if name != "lift_fraction"
         }
         state["sink_rate"] = max(state["sink_rate"], SOFTEST)
-        return replace(
-            nominal, **state, lift=self._lift(nominal.lift, change["lift_fraction"], lift)
-        )
+        return replace(nominal, **state, lift=self._lift(number, change["lift_fraction"], lift))
 
-    def _lift(self, nominal: Lift, change: float, normals: Array) -> Lift:
-        scatter = self._scatter
-        start = nominal.decay_start + scatter.lift_decay_start * float(normals[0])
+    def _lift(self, number: int, change: float, normals: Array) -> Lift:
+        nominal, scatter = self._contacts[number].lift, self._scatter
+        start = self._decay_starts[number] + scatter.lift_decay_start * float(normals[0])
         residual = nominal.residual_fraction + scatter.residual_lift_fraction * float(normals[2])
         lift = replace(
             nominal,
@@ -185,6 +185,21 @@ class Sensitivity:
     lift_course: Array  #: (3,) decay start [1/s], decay time, residual fraction
     gear: Array  #: (3,) gas pressure, strut damping, tyre stiffness
     structural_damping: float
+
+
+def _decay_starts(contacts: Sequence[Contact]) -> list[float]:
+    """When the lift begins to decay, after each contact; negative: so long before it [s].
+
+    A later contact by which the spoilers are out says only that its lift decays from its beginning.
+    """
+    starts = [contact.lift.decay_start for contact in contacts]
+    if not contacts:
+        return starts
+    out = contacts[0].time + starts[0]
+    return [
+        start if start > 0.0 else min(out - contact.time, 0.0)
+        for contact, start in zip(contacts, starts, strict=True)
+    ]
 
 
 def _root(covariance: Array) -> Array:

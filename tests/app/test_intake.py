@@ -113,6 +113,16 @@ def test_lift_is_never_assumed_to_last(mini: AircraftDefinition) -> None:
     assert landed.lift.model is LiftModel.DECAYING
 
 
+def test_lift_decays_on_where_a_later_contact_does_not_say(mini: AircraftDefinition) -> None:
+    """The spoilers are taken to come out half a second after the first contact, once."""
+    given = {"decay_start": {"value": 0.4, "unit": "s"}}
+    later = [contact(time={"value": time, "unit": "s"}) for time in (0.2, 1.5)]
+    stated = contact(time={"value": 1.5, "unit": "s"}, lift={"model": "decaying", **given})
+    posted = record(contacts=[contact(), *later, stated])
+    found = take_in(parse_record(posted), mini).record.contacts
+    assert [each.lift.decay_start for each in found] == pytest.approx([0.5, 0.3, 0.0, 0.4])
+
+
 def test_lift_as_given(mini: AircraftDefinition) -> None:
     trimmed = {
         "model": "trimmed",

@@ -23,7 +23,7 @@ from verification.judging.accidents import JudgedCase, Scale, fly_case, scale_of
 from verification.judging.docs import fill_page, write_figures
 from verification.judging.figures import figures_of
 from verification.judging.fleet import Fleet, fly_fleet, judging_model
-from verification.judging.knowledge import compared_knowledge
+from verification.judging.knowledge import compared_knowledge, learned_parameters
 from verification.judging.methods import Answers
 from verification.judging.score import FleetScore, score_fleet
 from verification.judging.tables import (
@@ -32,6 +32,7 @@ from verification.judging.tables import (
     cases_table,
     fleet_table,
     knowledge_table,
+    learned_table,
     methods_table,
 )
 from verification.run import ROOT
@@ -119,7 +120,11 @@ def _fleet_tables(answers: Sequence[Answers], score: FleetScore) -> list[Table]:
     ):
         if calibration is not None:
             tables.append(calibration_table(name, title, calibration))
-    return [*tables, knowledge_table(compared_knowledge(answers))]
+    return [
+        *tables,
+        knowledge_table(compared_knowledge(answers)),
+        learned_table(learned_parameters(answers)),
+    ]
 
 
 def _show(table: Table, console: Console) -> None:

@@ -14,22 +14,26 @@ from solver.assess import AssessmentModel, load_assessment_model
 from solver.flight_data.frame_file import packaged_frame
 from solver.flight_data.geometry import Installation
 from verification.judging.flight import fly
-from verification.judging.methods import Answers, answer, believed_installation
+from verification.judging.methods import Answers, Recorder, answer, believed_installation
 from verification.judging.population import draw_landing
+from verification.judging.use_of_limits import UseOfLimits
 from verification.run import ROOT
 from verification.store import digest_of, digest_of_sources, exclusive
 
-#: Recorders in turn, and the rate of their normal acceleration [Hz].
-RECORDERS = (("business-jet-8", 8.0), ("business-jet-16", 16.0))
+#: Recorders in turn.
+RECORDERS = (Recorder("business-jet-8", 8.0), Recorder("business-jet-16", 16.0))
 
 #: What an answer rests on.
 _SOURCES = (
     "solver",
     *(
         f"verification/judging/{name}.py"
-        for name in ("population", "service_scatter", "flight", "methods", "fleet")
+        for name in (
+            "population", "service_scatter", "flight", "use_of_limits", "reading", "true_parts",
+            "given_truth", "methods", "fleet",
+        )
     ),
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +118,7 @@ def _flown(fleet: Fleet, numbers: list[int]) -> Iterator[Answers]:
 
 @dataclass(frozen=True, slots=True)
 class _Prepared:
-    model: AssessmentModel
+    use: UseOfLimits
     installation: Installation
 
 
@@ -126,16 +130,12 @@ def _prepare(folder: Path, cache: Path) -> None:
     global _prepared
     threadpool_limits(1)
     model = judging_model(folder, cache)
-    _prepared = _Prepared(model, believed_installation(model))
+    _prepared = _Prepared(UseOfLimits(model), believed_installation(model))
 
 
 def _answer(number: int, seed: int) -> Answers:
     assert _prepared is not None
-    name, rate = RECORDERS[number % len(RECORDERS)]
-    flown = fly(
-        _prepared.model,
-        draw_landing(number, seed),
-        packaged_frame(name),
-        _prepared.installation,
-    )
-    return answer(_prepared.model, flown, _prepared.installation, rate)
+    use, installation = _prepared.use, _prepared.installation
+    frames = [packaged_frame(recorder.frame) for recorder in RECORDERS]
+    flown = fly(use, draw_landing(number, seed), frames, installation)
+    return answer(use, flown, installation, RECORDERS, number % len(RECORDERS))

@@ -12,22 +12,17 @@ from itertools import cycle
 import numpy as np
 
 from solver.arrays import Array
-from solver.assess import AssessmentModel
 from solver.flight_data.approach import Approach, fly_in
 from solver.flight_data.frame import RecorderFrame
 from solver.flight_data.geometry import Installation, aircraft_geometry
 from solver.flight_data.recorder import Surroundings, record
 from solver.flight_data.window import Window
-from solver.inertia_relief.loading import assemble
-from solver.inertia_relief.loads import landing_loads
-from solver.inertia_relief.peaks import find_peaks
-from solver.inertia_relief.response import landing_response
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact
 from solver.landing.simulate import SimulationOptions, simulate_landing
-from solver.verdict.gear_loads import gear_loads
 from verification.judging.population import DrawnLanding
 from verification.judging.service_scatter import scattered_aircraft, scattered_lift
+from verification.judging.use_of_limits import UseOfLimits
 
 #: For the recording: bounces and the nose are in it, the grid is fine enough for a shock.
 _RECORDED = SimulationOptions(time_limit=6.0, stop_when_settled=False, output_interval=2e-3)
@@ -44,15 +39,18 @@ class FlownLanding:
     aircraft: LandingAircraft  #: as it really was
     fills: Array  #: (n_groups,) true fill factors of tanks and bays
     utilisation: float  #: largest use of a limit, airframe or gear; above 1 the landing was hard
-    window: Window
+    windows: tuple[Window, ...]  #: one for each frame, all of the same motion and sensors
 
 
 def fly(
-    model: AssessmentModel, drawn: DrawnLanding, frame: RecorderFrame, believed: Installation
+    use: UseOfLimits,
+    drawn: DrawnLanding,
+    frames: Sequence[RecorderFrame],
+    believed: Installation,
 ) -> FlownLanding:
     """Fly and record a landing; the sensors are not quite where they are believed to be."""
     rng = np.random.default_rng([drawn.seed, 0])
-    airframe = model.airframe
+    airframe = use.model.airframe
     definition = airframe.definition
     fuel = {tank.name: drawn.fuel_fill * tank.capacity for tank in definition.tanks}
     payload = {
@@ -68,34 +66,19 @@ def fly(
         contact=contact,
         aircraft=aircraft,
         fills=fills,
-        utilisation=utilisation_of(model, aircraft, fills, (contact,)),
-        window=_recording(aircraft, contact, frame, believed, rng, drawn.seed),
+        utilisation=use(aircraft, fills, (contact,)),
+        windows=_recordings(aircraft, contact, frames, believed, rng, drawn.seed),
     )
 
 
-def utilisation_of(
-    model: AssessmentModel, aircraft: LandingAircraft, fills: Array, contacts: Sequence[Contact]
-) -> float:
-    """Largest use of a limit, airframe or gear, in contacts of an aircraft of any gears."""
-    airframe = model.airframe
-    reduced = assemble(model.reduced, fills)
-    used = []
-    for contact in contacts:
-        history = simulate_landing(aircraft, contact)
-        response = landing_response(reduced, landing_loads(airframe, history))
-        used.append(float((find_peaks(model.reduced, response).stress / airframe.allowables).max()))
-        used += [load.utilisation for load in gear_loads(airframe.definition.gears, history, 0)]
-    return max(used)
-
-
-def _recording(
+def _recordings(
     aircraft: LandingAircraft,
     contact: Contact,
-    frame: RecorderFrame,
+    frames: Sequence[RecorderFrame],
     believed: Installation,
     rng: np.random.Generator,
     seed: int,
-) -> Window:
+) -> tuple[Window, ...]:
     approach = Approach(
         flare=float(rng.uniform(3.0, 7.0)),
         crab=float(rng.normal(0.0, 2.0) * _DEGREE),
@@ -117,4 +100,5 @@ def _recording(
         headwind=float(rng.normal(4.0, 3.0)),
         mass=aircraft.total_mass,
     )
-    return record(motion, frame, aircraft_geometry(aircraft, real), surroundings, seed)
+    geometry = aircraft_geometry(aircraft, real)
+    return tuple(record(motion, frame, geometry, surroundings, seed) for frame in frames)

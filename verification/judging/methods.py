@@ -4,34 +4,32 @@ All methods see the same recording.  The rules of today's practice are given the
 the contact, which they would have to find; ours are given the window and nothing else.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from solver.assess import AssessmentModel, assess_landing
 from solver.assessment import RuleStatus, TouchdownRecord, Verdict
-from solver.assimilation.assimilate import FOLLOWING, Assimilation, assimilate, contact_of
-from solver.assimilation.parameters import ServiceScatter
+from solver.assimilation.assimilate import Assimilation
+from solver.assimilation.parameters import GAS_PRESSURE, SERVICE_PARAMETERS
 from solver.errors import SolverError
-from solver.flight_data.contacts import ContactKind
-from solver.flight_data.geometry import Geometry, Installation, geometry_on_gears
+from solver.flight_data.geometry import Installation, geometry_on_gears
 from solver.flight_data.parameter import Parameter
-from solver.flight_data.reconstruction import reconstruct
 from solver.flight_data.window import Window
-from solver.landing.aircraft import LandingAircraft
 from solver.recorded import RecordedContact, RecordedPeak
 from solver.verdict.judge import SEVERITY
 from solver.verdict.rule_findings import apply_rule
 from verification.judging.accidents import largest_utilisation
-from verification.judging.flight import FlownLanding, utilisation_of
+from verification.judging.flight import FlownLanding
+from verification.judging.given_truth import is_near_limit, uses_by_knowledge
+from verification.judging.reading import read_window, recorded_mass
+from verification.judging.use_of_limits import UseOfLimits
 
 #: Use of a limit below or above which, by truth and by the estimate, the long methods are left out.
 CLEARLY_SOUND, CLEARLY_HARD = 0.6, 1.8
 #: Of those landings every so many is given to the long methods all the same.
 CHECKED = 5
-
-#: Of a recorded gross mass, relative (the computed mass of an airliner is good to about 1 %).
-MASS_DEVIATION = 0.01
 
 #: Share of the limit where the rule asks for an inspection whatever was recorded.
 _BEYOND_THE_RULE = 9.0
@@ -41,6 +39,19 @@ _NEARLY_A_SECOND = 0.95
 
 #: About the contact in which a rule looks for the recorded peak [s].
 _PEAK_SPAN = (-0.5, 6.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Recorder:
+    """A recorder by its frame, and the rate of its normal acceleration."""
+
+    frame: str  #: name of a packaged frame
+    rate: float  #: [Hz]
+
+    @property
+    def name(self) -> str:
+        """How tables call it."""
+        return f"{self.rate:g} Hz"
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +86,10 @@ class Answers:
     corrected: float | None = None  #: use of a limit by the state after assimilation
     is_unexplained: bool = False  #: the recorded response cannot be explained
     probability: float | None = None  #: that a limit is exceeded, by state and covariance after it
-    with_true_state: float | None = None  #: true contact, aircraft as defined, recorded mass
-    with_true_aircraft: float | None = None  #: state after assimilation, aircraft as it was
+    #: Near the limit, use of a limit by what is known (`verification.judging.knowledge`).
+    knowledge: dict[str, float] = field(default_factory=dict)
+    #: Deviation of what the aircraft was like after assimilation over that before, by parameter.
+    learned: dict[str, float] = field(default_factory=dict)
 
 
 def believed_installation(model: AssessmentModel) -> Installation:
@@ -90,26 +103,32 @@ def believed_installation(model: AssessmentModel) -> Installation:
 
 
 def answer(
-    model: AssessmentModel, flown: FlownLanding, installation: Installation, rate: float
+    use: UseOfLimits,
+    flown: FlownLanding,
+    installation: Installation,
+    recorders: Sequence[Recorder],
+    own: int,
 ) -> Answers:
     """Give a recording to every method.
 
     Parameters
     ----------
-    model : AssessmentModel
+    use : UseOfLimits
     flown : FlownLanding
     installation : Installation
         Where the sensors are believed to be.
-    rate : float
-        Of the recorder's normal acceleration [Hz].
+    recorders : sequence of Recorder
+        Of the landing's windows.
+    own : int
+        The one that the methods see; the others say what a better one would have told.
     """
-    drawn, window = flown.drawn, flown.window
+    model, drawn, window = use.model, flown.drawn, flown.windows[own]
     rules = rule_answers(model, window)
     answers = Answers(
         number=drawn.number,
         kind=drawn.kind,
         weight=drawn.weight,
-        rate=rate,
+        rate=recorders[own].rate,
         sink_rate=flown.contact.sink_rate,
         utilisation=flown.utilisation,
         load_factor_share=rules.load_factor_share,
@@ -118,30 +137,15 @@ def answer(
         undetermined="",
         contacts=0,
     )
-    mass = recorded_mass(model, window)
-    loading = model.airframe.loading_for(mass)
-    aircraft = model.airframe.landing_aircraft(loading.factors)
-    geometry = _geometry(model, aircraft, installation)
-    found = reconstruct(window, geometry)
-    if not found.contacts:
-        return replace(answers, undetermined=found.cannot_tell[0].code)
-    landed = [each for each in found.contacts if each.kind not in FOLLOWING]
-    record = TouchdownRecord(
-        model.name,
-        tuple(contact_of(each, landed[0].time) for each in landed),
-        mass=mass,
-        mass_deviation=MASS_DEVIATION * mass,
-        centre_of_gravity_deviation=geometry.centre_of_gravity_sd,
-        recorded=tuple(
-            RecordedContact(nose_first=each.kind is ContactKind.NOSE_FIRST, simulated=place)
-            for place, each in enumerate(landed)
-        ),
-    )
+    reading = read_window(model, window, installation)
+    if reading.is_silent:
+        return replace(answers, undetermined=reading.found.cannot_tell[0].code)
+    record = reading.record(model)
     try:
         assessment = assess_landing(model, record)
         answers = replace(
             answers,
-            contacts=len(landed),
+            contacts=len(record.contacts),
             sink_estimate=record.contacts[0].sink_rate,
             estimate=largest_utilisation(assessment),
             is_held=SEVERITY[assessment.verdict] >= SEVERITY[Verdict.INSPECT],
@@ -150,27 +154,32 @@ def answer(
         is_clear = max(used) < CLEARLY_SOUND or min(used) > CLEARLY_HARD
         if is_clear and drawn.number % CHECKED:
             return answers
-        scatter = ServiceScatter.stated(model.airframe.definition.scatter)
-        updated = assimilate(window, found, aircraft, geometry, scatter=scatter)
-        return _with_assimilation(model, flown, answers, record, updated)
+        updated = reading.assimilated(model)
+        answers = _with_assimilation(model, answers, record, updated)
+        if is_near_limit(flown.utilisation):
+            readings = {}
+            for place, recorder in enumerate(recorders):
+                each, after = reading, updated
+                if place != own:
+                    each = read_window(model, flown.windows[place], installation)
+                    if each.is_silent:
+                        continue
+                    after = each.assimilated(model)
+                readings[recorder.name] = (each, after)
+            answers = replace(answers, knowledge=uses_by_knowledge(use, flown, readings))
     except SolverError as error:
         return replace(answers, undetermined=type(error).__name__)
+    return answers
 
 
 def _with_assimilation(
-    model: AssessmentModel,
-    flown: FlownLanding,
-    answers: Answers,
-    record: TouchdownRecord,
-    updated: Assimilation,
+    model: AssessmentModel, answers: Answers, record: TouchdownRecord, updated: Assimilation
 ) -> Answers:
-    """Add what the recorded response makes of it, and what better knowledge would."""
+    """Add what the recorded response makes of it."""
     contacts = updated.contacts
     assessment = assess_landing(
         model, replace(record, contacts=contacts, uncertainties=updated.uncertainties)
     )
-    believed = replace(flown.contact, lift=flown.drawn.contact.lift)
-    true_state = assess_landing(model, replace(record, contacts=(believed,)))
     return replace(
         answers,
         is_complete=True,
@@ -178,17 +187,20 @@ def _with_assimilation(
         corrected=largest_utilisation(assessment),
         is_unexplained=bool(updated.unexplained),
         probability=assessment.probability_limit_exceeded,
-        with_true_state=largest_utilisation(true_state),
-        with_true_aircraft=utilisation_of(model, flown.aircraft, flown.fills, contacts),
+        learned=_learned(updated),
     )
 
 
-def recorded_mass(model: AssessmentModel, window: Window) -> float:
-    """Gross mass of the window, or the largest landing mass where it shows none [kg]."""
-    channel = window.first(Parameter.GROSS_MASS)
-    if channel is None:
-        return model.airframe.definition.masses.maximum_landing
-    return float(np.median(channel.value))
+def _learned(updated: Assimilation) -> dict[str, float]:
+    """Deviation of each parameter of the aircraft after its response over that before."""
+    first = updated.updates[0]
+    if first.corrected is None or not first.is_corrected:
+        return {}
+    return {
+        each.name: each.posterior_sd / each.prior_sd
+        for each in first.corrected.parameters
+        if each.name in SERVICE_PARAMETERS or each.name.startswith(GAS_PRESSURE)
+    }
 
 
 def rule_answers(model: AssessmentModel, window: Window) -> RuleAnswers:
@@ -234,18 +246,3 @@ def _differenced(window: Window) -> float:
     last = samples[-1]
     before = samples[samples[:, 0] <= last[0] - _NEARLY_A_SECOND][-1]
     return float((before[1] - last[1]) / (last[0] - before[0]))
-
-
-def _geometry(
-    model: AssessmentModel, aircraft: LandingAircraft, installation: Installation
-) -> Geometry:
-    reference = model.airframe.definition.reference
-    forward, aft = reference.forward_centre_of_gravity, reference.aft_centre_of_gravity
-    return geometry_on_gears(
-        aircraft.gears,
-        aircraft.total_centre_of_gravity,
-        aircraft.total_mass,
-        installation,
-        # Anywhere in the allowed range: uniform, variance (aft - forward)^2 / 12.
-        centre_of_gravity_sd=(aft - forward) / np.sqrt(12.0),
-    )

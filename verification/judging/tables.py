@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from verification.judging.accidents import DESIGN_SINK_RATE, FOOT, JudgedCase, Scale
-from verification.judging.knowledge import Knowledge
+from verification.judging.knowledge import Knowledge, Learned
 from verification.judging.methods import Answers
 from verification.judging.population import KINDS
 from verification.judging.score import Calibration, FleetScore
@@ -175,21 +175,41 @@ def knowledge_table(knowledge: Sequence[Knowledge]) -> Table:
             str(each.landings),
             _signed(each.error_mean),
             percent(each.error_sd),
+            percent(each.error_size),
             with_interval(each.wrong_calls),
             with_interval(each.misses),
             f"{each.area:.3f}" if np.isfinite(each.area) else "–",
+            with_interval(each.wrong_calls_in_service),
+            with_interval(each.misses_in_service),
         )
         for each in knowledge
     ]
     return Table(
         "knowledge",
-        "Landings near the limit, as flown",
+        "Landings near the limit, as flown; what is added is added to the state after assimilation "
+        "at 8 Hz",
         (
             "the use of a limit by", "landings", "mean error", "scatter of the error",
-            "wrong calls", "missed", "area under the curve",
+            "median size", "wrong calls", "missed", "area under the curve",
+            "wrong calls, in service",
+            "missed, in service",
         ),
         tuple(rows),
     )  # fmt: skip
+
+
+def learned_table(learned: Sequence[Learned]) -> Table:
+    """Show what a recorded response tells of the aircraft."""
+    rates = sorted(learned[0].left) if learned else []
+    return Table(
+        "learned",
+        "Standard deviation after assimilation over that before, mean",
+        ("what the aircraft was like", *(f"{rate:g} Hz" for rate in rates)),
+        tuple(
+            (each.parameter.replace("_", " "), *(f"{each.left[rate]:.2f}" for rate in rates))
+            for each in learned
+        ),
+    )
 
 
 def _signed(value: float) -> str:

@@ -20,6 +20,7 @@ from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import Reconstruction, reconstruct
 from solver.flight_data.window import Window
 from solver.landing.aircraft import LandingAircraft
+from solver.landing.contact import Lift
 from tests.solver.assimilation.conftest import Recovered
 
 
@@ -143,6 +144,28 @@ def test_a_contact_that_the_next_one_follows_at_once_is_left_alone(
     assert "only the first contact" in updates[1].unchanged_because
     assert updates[1].contact.time == pytest.approx(0.2)
     assert updates[1].misfit is None
+
+
+def test_a_bounce_goes_on_with_the_lift_that_the_first_response_tells(
+    landings: list[Recovered], aircraft: LandingAircraft, geometry: Geometry
+) -> None:
+    """One course of the lift in a landing; how much there is at a contact is its own state."""
+    given = landings[0]
+    first = given.reconstruction.contacts[0]
+    bounce = replace(first, kind=ContactKind.BOUNCE, time=first.time + 0.9)
+    both = replace(given.reconstruction, contacts=(first, bounce))
+    corrected, later = assimilate(given.true.landing.window, both, aircraft, geometry).updates
+    assert corrected.is_corrected
+    course = corrected.contact.lift
+    assert course.decay_start != Lift().decay_start
+    assert later.contact.lift == replace(
+        course,
+        decay_start=pytest.approx(max(course.decay_start - 0.9, 0.0)),
+        fraction=later.prior.lift.fraction,
+    )
+    untold = uncorrected(both, "no mesh").contacts
+    assert untold[0].lift.decay_start == Lift().decay_start
+    assert untold[1].lift.decay_start == 0.0
 
 
 def test_wheels_that_follow_belong_to_the_contact_before(landings: list[Recovered]) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from solver.errors import RecordError, SimulationDivergedError
-from solver.landing import batch
+from solver.landing import sequence
 from solver.landing.batch import simulate_landings
 from solver.landing.contact import Contact
 from solver.landing.history import LandingHistory
@@ -49,12 +49,12 @@ def test_every_landing_is_that_of_the_single_form_to_the_last_bit(threads: int) 
 def test_a_landing_that_diverges_does_not_take_the_others_with_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def simulate(aircraft: object, contact: Contact, options: object) -> LandingHistory:
+    def simulate(aircraft: object, contact: Contact, *rest: object) -> LandingHistory:
         if contact.sink_rate == CONTACTS[1].sink_rate:
             raise SimulationDivergedError("as it happens")
-        return simulate_landing(aircraft, contact, options)
+        return simulate_landing(aircraft, contact, *rest)
 
-    monkeypatch.setattr(batch, "simulate_landing", simulate)
+    monkeypatch.setattr(sequence, "simulate_landing", simulate)
     aircraft = business_jet()
     found = simulate_landings(
         [(aircraft, contact) for contact in CONTACTS[:3]], lambda place, _: place, SHORT

@@ -72,6 +72,27 @@ def test_components_that_move_together_do(mini: AssessmentModel) -> None:
     assert np.std(found[:, 0]) == pytest.approx(0.3, rel=0.1)
 
 
+def test_the_spoilers_come_out_once_for_all_contacts(mini: AssessmentModel) -> None:
+    """Two contacts, spoilers 0.6 s after the first: the later one sees what is left, or none."""
+    scatter = mini.airframe.definition.scatter
+    first = landing(mini, 2.0)
+    lift = Lift(fraction=0.9, decay_start=0.6)
+    for apart in (0.5, 0.7, 3.0):
+        contact = replace(first.contacts[0], lift=lift)
+        later = replace(contact, time=apart, lift=lift.seen_from(apart))
+        record = replace(
+            first, contacts=(contact, later), uncertainties=(first.uncertainties[0],) * 2
+        )
+        starts = np.array(
+            [[c.lift.decay_start for c in s.contacts] for s in samples_of(mini, record)]
+        )
+        inside = starts[:, 0] > 0.0
+        np.testing.assert_allclose(
+            starts[inside, 1], np.maximum(starts[inside, 0] - apart, 0.0), atol=1e-12
+        )
+        assert starts[:, 0].std() == pytest.approx(scatter.lift_decay_start, rel=0.1)
+
+
 def test_nothing_lands_upwards_or_flies_away(mini: AssessmentModel) -> None:
     record = landing(mini, 0.3, deviations={"sink_rate": 0.5, "lift_fraction": 0.2})
     found = states(samples_of(mini, record))

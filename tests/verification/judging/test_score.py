@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from verification.judging.knowledge import compared_knowledge
+from verification.judging.knowledge import compared_knowledge, learned_parameters
 from verification.judging.methods import Answers
 from verification.judging.score import (
     REPORTS_RIGHT,
@@ -15,6 +15,8 @@ from verification.judging.score import (
     score_fleet,
     truth_of,
 )
+
+SMOOTHED_8, ALL = "state by the smoother, 8 Hz", "all of these, 8 Hz"
 
 PERFECT = Answers(
     number=0,
@@ -35,8 +37,6 @@ PERFECT = Answers(
     sink_corrected=1.0,
     corrected=0.5,
     probability=0.0,
-    with_true_state=0.5,
-    with_true_aircraft=0.5,
 )
 
 
@@ -57,8 +57,7 @@ def landings(count: int = 40) -> Iterator[Answers]:
             is_held=is_hard,
             corrected=used,
             probability=float(is_hard),
-            with_true_state=used,
-            with_true_aircraft=used,
+            knowledge={ALL: used, SMOOTHED_8: used},
         )
 
 
@@ -90,7 +89,7 @@ def test_a_window_that_cannot_tell_is_inspected_and_never_missed() -> None:
     fleet = list(landings())
     silent = {
         "estimate": None, "corrected": None, "probability": None, "is_held": True,
-        "is_complete": False, "with_true_state": None, "with_true_aircraft": None,
+        "is_complete": False, "knowledge": {},
     }  # fmt: skip
     fleet[1] = dataclasses.replace(fleet[1], undetermined="no_radio_altitude", **silent)
     score = score_fleet(fleet, seed=1)
@@ -120,21 +119,53 @@ def test_crews_reports_are_as_often_right_as_the_maker_says() -> None:
     assert REPORTS_RIGHT <= right < 2.0 * REPORTS_RIGHT
 
 
-def test_knowledge_is_compared_recorder_by_recorder() -> None:
-    fleet = [dataclasses.replace(a, rate=(8.0, 16.0)[a.number // 2 % 2]) for a in landings()]
-    names = [each.name for each in compared_knowledge(fleet)]
-    assert names == [
-        "state by the smoother, 8 Hz",
-        "state by the smoother, 16 Hz",
-        "state after assimilation, 8 Hz",
-        "state after assimilation, 16 Hz",
-        "true state, aircraft as defined",
-        "state after assimilation, aircraft as it was",
+def test_knowledge_is_compared_on_the_same_landings() -> None:
+    """A landing that lacks one kind of knowledge counts for none; the least comes first."""
+    fleet = list(landings())
+    fleet[3] = dataclasses.replace(fleet[3], knowledge={SMOOTHED_8: 1.0})
+    fleet[5] = dataclasses.replace(fleet[5], knowledge={})
+    found = compared_knowledge(fleet)
+    assert [(each.name, each.landings) for each in found] == [(SMOOTHED_8, 38), (ALL, 38)]
+
+
+def test_what_was_learned_is_told_by_the_recorders_rate() -> None:
+    """Means by counting; a landing of which nothing was learned does not count."""
+    fleet = [
+        dataclasses.replace(a, rate=(8.0, 16.0)[a.number % 2], learned={"mass": 0.1 * a.number})
+        for a in list(landings())[:4]
     ]
+    (mass,) = learned_parameters([*fleet, PERFECT])
+    assert mass.parameter == "mass"
+    assert mass.left == {8.0: pytest.approx(0.1), 16.0: pytest.approx(0.2)}
+    assert learned_parameters([PERFECT]) == ()
+
+
+def test_without_a_landing_near_the_limit_nothing_is_compared() -> None:
+    assert compared_knowledge([PERFECT]) == ()
 
 
 def test_errors_are_relative_to_the_truth() -> None:
-    fleet = [dataclasses.replace(a, estimate=1.1 * a.utilisation) for a in landings()]
-    (smoother, *_) = compared_knowledge(fleet)
-    assert smoother.error_mean == pytest.approx(0.1)
-    assert smoother.error_sd == pytest.approx(0.0, abs=1e-12)
+    """All 10 % too large: the half at 0.8 is called sound still, the other hard."""
+    fleet = [
+        dataclasses.replace(
+            a, knowledge={SMOOTHED_8: 1.1 * a.utilisation, ALL: 0.8 * a.utilisation}
+        )
+        for a in landings()
+    ]
+    large, small = compared_knowledge(fleet)
+    assert large.error_mean == pytest.approx(0.1)
+    assert large.error_sd == pytest.approx(0.0, abs=1e-12)
+    assert (large.error_size, small.error_size) == pytest.approx((0.1, 0.2))
+    assert (large.wrong_calls.value, large.misses.value) == (0.0, 0.0)
+    assert small.misses.value == 1.0
+
+
+def test_in_service_landings_far_from_the_limit_count_as_they_were_told() -> None:
+    """Twenty hard: one is not near and missed all the same, the others are told by `ALL`."""
+    fleet = list(landings())
+    fleet[1] = dataclasses.replace(fleet[1], knowledge={}, corrected=0.9, weight=2.0)
+    fleet[2] = dataclasses.replace(fleet[2], knowledge={SMOOTHED_8: 0.8, ALL: 1.3}, weight=3.0)
+    smoothed, whole = compared_knowledge(fleet)
+    assert smoothed.misses_in_service.value == pytest.approx(2.0 / 21.0)
+    assert smoothed.wrong_calls_in_service.value == 0.0
+    assert whole.wrong_calls_in_service.value == pytest.approx(3.0 / (3.0 + 19.0))
