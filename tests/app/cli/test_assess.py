@@ -103,7 +103,8 @@ def test_the_worst_of_several_contacts_gives_the_verdict(
     soft, hard, both = assessed(2.0), assessed(11.0), assessed(2.0, 11.0)
     assert both.verdict is hard.verdict
     assert both.driving_contact == 1
-    assert both.worst_utilisation == hard.worst_utilisation > soft.worst_utilisation
+    # by itself the hard one would have to spin its wheels up
+    assert soft.worst_utilisation < both.worst_utilisation < hard.worst_utilisation
     assert {load.contact for load in both.gear_loads} == {0, 1}
 
 
