@@ -121,21 +121,12 @@ def _sums(
     t0 = t1 = t2 = t3 = t4 = t5 = _ZERO
     for k in range(rows.shape[2]):
         a, b = history[one, k], history[two, k]
-        r0, r1 = np.float32(rows[e, 0, k]), np.float32(rows[e, 1, k])
-        r2, r3 = np.float32(rows[e, 2, k]), np.float32(rows[e, 3, k])
-        r4, r5 = np.float32(rows[e, 4, k]), np.float32(rows[e, 5, k])
-        s0 += r0 * a
-        s1 += r1 * a
-        s2 += r2 * a
-        s3 += r3 * a
-        s4 += r4 * a
-        s5 += r5 * a
-        t0 += r0 * b
-        t1 += r1 * b
-        t2 += r2 * b
-        t3 += r3 * b
-        t4 += r4 * b
-        t5 += r5 * b
+        r, q = np.float32(rows[e, 0, k]), np.float32(rows[e, 1, k])
+        s0, t0, s1, t1 = s0 + r * a, t0 + r * b, s1 + q * a, t1 + q * b
+        r, q = np.float32(rows[e, 2, k]), np.float32(rows[e, 3, k])
+        s2, t2, s3, t3 = s2 + r * a, t2 + r * b, s3 + q * a, t3 + q * b
+        r, q = np.float32(rows[e, 4, k]), np.float32(rows[e, 5, k])
+        s4, t4, s5, t5 = s4 + r * a, t4 + r * b, s5 + q * a, t5 + q * b
     return s0, s1, s2, s3, s4, s5, t0, t1, t2, t3, t4, t5
 
 
@@ -157,9 +148,8 @@ def _row_stress(
 ) -> tuple[float, float]:  # pragma: no cover - compiled
     """Von Mises stress of element ``e`` from its rows and the coordinates at two samples."""
     s0, s1, s2, s3, s4, s5, t0, t1, t2, t3, t4, t5 = _sums(numbers, e, history, one, two)
-    p0, p1, p2, p3, p4, p5 = (
-        step[e, 0], step[e, 1], step[e, 2], step[e, 3], step[e, 4], step[e, 5],
-    )  # fmt: skip
+    one_step = step[e, 0], step[e, 1], step[e, 2], step[e, 3], step[e, 4], step[e, 5]
+    p0, p1, p2, p3, p4, p5 = one_step
     return (
         _measure(p0 * s0, p1 * s1, p2 * s2, p3 * s3, p4 * s4, p5 * s5, points, e),
         _measure(p0 * t0, p1 * t1, p2 * t2, p3 * t3, p4 * t4, p5 * t5, points, e),
