@@ -148,6 +148,7 @@ def _contact(contact: FoundContact) -> dict[str, Any]:
     state = contact.state
     return {
         "kind": str(contact.kind),
+        "nose_wheel_down": contact.nose_wheel_down,
         "time_s": contact.time,
         "time_sd_s": contact.time_sd,
         "chance": contact.chance,
@@ -218,7 +219,7 @@ def _contacts_table(found: Reconstruction) -> Table:
             for gear, estimate in state.gear_sink_rates.items()
         )
         table.add_row(
-            contact.kind.replace("_", " "),
+            contact.kind.replace("_", " ") + (", nose down" if contact.nose_wheel_down else ""),
             f"{contact.time:.3f}±{contact.time_sd:.3f}",
             contact.gear,
             _shown(state.sink_rate),

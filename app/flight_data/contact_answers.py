@@ -65,6 +65,9 @@ class ContactFound(BaseModel):
     time_s: float = Field(description="On the window's clock.")
     time_sd_s: float
     chance: float = Field(description="That there was such a contact.", ge=0, le=1)
+    nose_wheel_down: bool = Field(
+        description="Whether the nose wheel was on the ground as the main wheels came back."
+    )
     sink_rate_m_s: float = Field(description="Of the centre of gravity, downward; as assessed.")
     sink_rate_sd_m_s: float
     gear_sink_rates_m_s: dict[str, float] = Field(description="From before the contact alone.")
@@ -85,6 +88,7 @@ def contact_found(found: FoundContact, update: ContactUpdate | None) -> ContactF
         time_s=found.time,
         time_sd_s=found.time_sd,
         chance=found.chance,
+        nose_wheel_down=found.nose_wheel_down,
         sink_rate_m_s=state.sink_rate.value,
         sink_rate_sd_m_s=state.sink_rate.sd,
         gear_sink_rates_m_s={gear: each.value for gear, each in state.gear_sink_rates.items()},

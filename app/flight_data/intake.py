@@ -22,12 +22,13 @@ from solver.assimilation.parameters import ServiceScatter
 from solver.assimilation.state import STATE_UNITS
 from solver.errors import FlightDataError, ModelError, SolverError
 from solver.flight_data.frame_file import frame_names, packaged_frame
-from solver.flight_data.geometry import Geometry, Place, geometry_on_gears
+from solver.flight_data.geometry import Geometry, geometry_on_gears
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reading import read_window
 from solver.flight_data.reconstruction import FoundContact, Reconstruction, reconstruct
 from solver.flight_data.table import Limits
 from solver.flight_data.window import Note, Window
+from solver.gear.place import Place
 from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
 
 #: Height of the centre of gravity above the main gears' pivots where nobody says [m].  It matters
@@ -195,6 +196,7 @@ def _contact(
         "time": _number(contact.time, found.time_sd, "s"),
         "t_sd_s": found.time_sd,
         "first_gear": _FIRST_GEAR[places[found.gear]],
+        "nose_wheel_down": contact.nose_wheel_down,
     }
     for name, unit in STATE_UNITS.items():
         is_known = name not in silent and np.isfinite(sd[name])

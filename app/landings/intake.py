@@ -250,6 +250,7 @@ class _Conversion:
             yaw_rate=number("yaw_rate"),
             lift=self._lift(path, given, time),
             time=time,
+            nose_wheel_down=given.nose_wheel_down,
         )
 
     def _lift(self, path: str, given: ContactIn, time: float) -> Lift:

@@ -20,6 +20,12 @@ def recorded_contact(given: ContactIn, simulated: int | None) -> recorded.Record
         sink_rate=si(given.sink_rate),
         roll=si(given.roll),
         roll_rate=si(given.roll_rate),
-        nose_first=None if given.first_gear is None else given.first_gear is FirstGear.NOSE,
+        nose_first=_nose_first(given),
         simulated=simulated,
     )
+
+
+def _nose_first(given: ContactIn) -> bool | None:
+    if given.nose_wheel_down:
+        return False
+    return None if given.first_gear is None else given.first_gear is FirstGear.NOSE

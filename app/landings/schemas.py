@@ -124,6 +124,11 @@ class ContactIn(Strict):
     t_sd_s: Annotated[Number, Field(ge=0, le=60)] | None = None
     time: Duration | None = Field(default=None, description="Since the first contact.")
     first_gear: FirstGear | None = None
+    nose_wheel_down: bool = Field(
+        default=False,
+        description="The nose wheel stayed on the ground since the contact before: the main wheels "
+        "touch, and what the nose wheel carries is part of the lift fraction.",
+    )
     sink_rate: SinkRate | None = None
     ground_speed: GroundSpeed | None = None
     pitch: Pitch | None = None
@@ -142,6 +147,16 @@ class ContactIn(Strict):
     spoilers: Literal["armed", "extended", "stowed"] | None = Field(
         default=None, description="Kept on record; lift itself is given by `lift`."
     )
+
+    @model_validator(mode="after")
+    def _one_gear_first(self) -> "ContactIn":
+        if self.nose_wheel_down and self.first_gear is FirstGear.NOSE:
+            raise PydanticCustomError(
+                "contradiction",
+                "a nose wheel that is down does not touch",
+                {"field": "first_gear", "value": self.first_gear, "allowed": "a main gear"},
+            )
+        return self
 
     @model_validator(mode="after")
     def _one_lift(self) -> "ContactIn":
@@ -232,6 +247,16 @@ class TouchdownRecordIn(Strict):
     fuel: Annotated[dict[GroupName, FuelOrPayload], Field(max_length=50)] = {}
     payload: Annotated[dict[GroupName, FuelOrPayload], Field(max_length=50)] = {}
     contacts: Annotated[list[ContactIn], Field(min_length=1, max_length=12)]
+
+    @model_validator(mode="after")
+    def _comes_out_of_the_air(self) -> "TouchdownRecordIn":
+        if self.contacts[0].nose_wheel_down:
+            raise PydanticCustomError(
+                "contradiction",
+                "at the first contact no wheel is down already",
+                {"field": "contacts[0].nose_wheel_down", "value": True, "allowed": "false"},
+            )
+        return self
 
     @model_validator(mode="after")
     def _contacts_in_order(self) -> "TouchdownRecordIn":

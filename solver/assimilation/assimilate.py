@@ -185,7 +185,14 @@ def contact_of(found: FoundContact, first_time: float) -> Contact:
     """Contact as reconstructed, within the range that a contact may have."""
     values = np.array([getattr(found.state, name).value for name in CONTACT_COMPONENTS])
     time = found.time - first_time
-    return contact_with(Contact(0.0, 0.0, lift=Lift().seen_from(time), time=time), values)
+    contact = Contact(
+        0.0,
+        0.0,
+        lift=Lift().seen_from(time),
+        time=time,
+        nose_wheel_down=found.nose_wheel_down,
+    )
+    return contact_with(contact, values)
 
 
 def _answer(

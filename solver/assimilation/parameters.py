@@ -6,6 +6,7 @@ a faster sink: it is estimated along with the state and its uncertainty stays in
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -152,5 +153,7 @@ def contact_with(contact: Contact, values: Array) -> Contact:
     """Contact with another state, (9,) in the order of `CONTACT_COMPONENTS`, kept within range."""
     given = dict(zip(CONTACT_COMPONENTS, values.tolist(), strict=True))
     lift = replace(contact.lift, fraction=float(np.clip(given.pop("lift_fraction"), *LIFT_RANGE)))
-    state = {name: float(np.clip(value, *RANGES[name])) for name, value in given.items()}
+    state: dict[str, Any] = {
+        name: float(np.clip(value, *RANGES[name])) for name, value in given.items()
+    }
     return replace(contact, **state, lift=lift)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from solver.arrays import Array
-from solver.errors import SimulationDivergedError
+from solver.errors import RecordError, SimulationDivergedError
 from solver.flexible_landing.energy import ENERGIES
 from solver.flexible_landing.initial import flexible_initial_state
 from solver.flexible_landing.integrate import integrate
@@ -66,6 +66,8 @@ def simulate_flexible_landing(
     """
     options = options or SimulationOptions()
     check_contact(contact)
+    if contact.nose_wheel_down:
+        raise RecordError("a flexible landing begins with its first contact, no nose wheel down")
     course = lift_course(contact.lift)
     lift = np.array(
         [course.fraction, course.decay_start, course.decay_time, course.residual_fraction]

@@ -24,6 +24,7 @@ from solver.flight_data.touchdown import Courses
 from solver.flight_data.vote import first_time_down, switch_indicator, vote
 from solver.flight_data.wheels import lowest_course, wheel_course
 from solver.flight_data.window import Window
+from solver.gear.place import Place
 
 #: Shortest time between two contacts of the main wheels [s].
 SHORTEST = 0.35
@@ -62,6 +63,9 @@ _LEFT_OF_DEVIATION = 0.65
 #: Heights count as evidence up to so many standard deviations.
 _MOST_DEVIATIONS = 4.0
 
+#: A nose wheel that is at least so deep shows in the normal acceleration before the mains do [m].
+_LOADED = 0.1
+
 #: What the end of a hop leaves open besides what the vote knows [s].
 _HOP_SD = 0.022
 
@@ -77,6 +81,7 @@ class _Heights:
     low: Array  #: (n,) [m]
     high: Array  #: (n,) [m]
     sd: Array  #: (n,) of either [m]
+    nose: Array  #: (n,) of the nose wheel, a deviation higher [m]
 
 
 def later_contacts(
@@ -121,7 +126,11 @@ def _bounces(
     each = [wheel_course(courses, geometry, wheel, grid) for wheel in geometry.mains]
     heights = np.array([height for height, _ in each])
     sd = np.hypot(np.max([sd for _, sd in each], axis=0), _HEIGHT_SD)
-    courses_of_wheels = _Heights(grid, heights.min(axis=0), heights.max(axis=0), sd)
+    nose = np.full(len(grid), np.inf)
+    if geometry.of(Place.NOSE):
+        height, deviation = lowest_course(courses, geometry, geometry.of(Place.NOSE), grid)
+        nose = height + deviation
+    courses_of_wheels = _Heights(grid, heights.min(axis=0), heights.max(axis=0), sd, nose)
     drag = best(window, Parameter.LONGITUDINAL_ACCELERATION)
     found: list[tuple[float, ContactTime]] = []
     for rise in rises(normal, drag, first.time + SHORTEST, end, sudden=_SUDDEN):
@@ -178,7 +187,8 @@ def _came_down(
         apart = min(between / max(speed, _LEAST_SPEED), _MOST_APART)
     kind = ContactKind.BOUNCE if is_hop else ContactKind.ONE_GEAR
     course = (heights.time, height, heights.sd)
-    contact = timed(window, normal, around, kind, course, rise, apart)
+    is_led = bool(heights.nose[at] < -_LOADED)
+    contact = timed(window, normal, around, kind, course, rise, apart, is_led=is_led)
     if contact is None:
         return None
     chance = float(expit(hop if is_hop else one_off))

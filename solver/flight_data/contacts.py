@@ -7,11 +7,11 @@ import numpy as np
 
 from solver.arrays import Array
 from solver.flight_data.alignment import Series, aligned
-from solver.flight_data.geometry import Place
 from solver.flight_data.onset import Indicator, rise_onset
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.vote import Vote, height_indicator, switch_indicator, vote
 from solver.flight_data.window import Window
+from solver.gear.place import Place
 
 
 class ContactKind(StrEnum):
@@ -23,6 +23,10 @@ class ContactKind(StrEnum):
     NOSE_FIRST = "nose_first"  #: the nose wheel before the mains
     MAINS = "mains"  #: the main wheels, after the nose wheel
     DEROTATION = "derotation"  #: the nose wheel, with the mains on the ground or just off it
+
+
+#: Contacts of the nose wheel.
+NOSE_KINDS = (ContactKind.DEROTATION, ContactKind.NOSE_FIRST)
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,6 +157,8 @@ def timed(
     height: tuple[Array, Array, Array],
     rise: Rise,
     apart: float,
+    *,
+    is_led: bool = False,
 ) -> ContactTime | None:
     """Let the indicators vote on the time of a later contact; None if none of them speaks.
 
@@ -170,11 +176,13 @@ def timed(
         Of the normal acceleration, that belongs to it.
     apart : float
         Time by which the other main gear comes down later, by the roll angle [s].
+    is_led : bool, optional
+        Whether the nose wheel is on the ground and loaded before.
     """
     grid = np.arange(*around, STEP)
     course = (np.interp(grid, height[0], h) for h in height[1:])
     indicators: list[Indicator | None] = [
-        rise_onset(ONSET, normal, grid, GUST, rise.time + 0.08, apart),
+        rise_onset(ONSET, normal, grid, GUST, rise.time + 0.08, apart, is_led=is_led),
         switch_indicator("ground switches", main_switches(window), grid),
         height_indicator("wheel height", grid, *course),
     ]

@@ -12,7 +12,7 @@ from scipy.special import log_ndtr
 from solver.arrays import Array
 from solver.flight_data.alignment import Series, aligned, best
 from solver.flight_data.contacts import ContactKind, ContactTime
-from solver.flight_data.geometry import Geometry, Place, Wheel
+from solver.flight_data.geometry import Geometry, Wheel
 from solver.flight_data.lever import rise
 from solver.flight_data.onset import Indicator, indicator
 from solver.flight_data.parameter import Parameter
@@ -30,6 +30,7 @@ from solver.flight_data.vote import (
 from solver.flight_data.wheels import wheel_course
 from solver.flight_data.window import Window
 from solver.frames import body_structural
+from solver.gear.place import Place
 
 #: Step of the times considered [s].
 _STEP = 0.02

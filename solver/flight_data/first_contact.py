@@ -16,7 +16,7 @@ from solver.flight_data.contacts import (
     main_switches,
 )
 from solver.flight_data.datum import Datum, normal_datum
-from solver.flight_data.geometry import Geometry, Place
+from solver.flight_data.geometry import Geometry
 from solver.flight_data.onset import Indicator, blurred, indicator
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.smoothing import SETTLING, smooth_window
@@ -26,6 +26,7 @@ from solver.flight_data.undisturbed import IMPACT, SPIN_UP_PULL, Shock, shock_ev
 from solver.flight_data.vote import Vote, first_time_down, switch_indicator, vote
 from solver.flight_data.wheels import lowest_course
 from solver.flight_data.window import Window
+from solver.gear.place import Place
 
 #: How well a smoothed height is trusted besides its own standard deviation [m].
 _HEIGHT_SD = 0.1

@@ -7,10 +7,11 @@ import numpy as np
 from solver.arrays import Array
 from solver.flight_data.approach import Approach, fly_in
 from solver.flight_data.frame import RecorderFrame
-from solver.flight_data.geometry import Geometry, Place
+from solver.flight_data.geometry import Geometry
 from solver.flight_data.motion import Motion, velocity_at
 from solver.flight_data.recorder import Surroundings, record
 from solver.flight_data.window import Window
+from solver.gear.place import Place
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact, Lift
 from solver.landing.history import LandingHistory

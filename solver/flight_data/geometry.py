@@ -1,22 +1,14 @@
 """Where wheels, centre of gravity and sensors sit: all that the estimate needs of an aircraft."""
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 
 from solver.arrays import Array
 from solver.gear.parameters import Gear
+from solver.gear.place import Place, place_of
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.records import GRAVITY
-
-
-class Place(StrEnum):
-    """Where a gear sits."""
-
-    LEFT = "left"
-    RIGHT = "right"
-    NOSE = "nose"
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +43,7 @@ class Geometry:
     centre_of_gravity_sd: float = 0.05  #: of its station [m]
     static_closure: float = 0.2  #: of strut and tyre of a main gear, aircraft rolling [m]
     static_closure_sd: float = 0.1  #: servicing of the struts, lift left [m]
+    nose_travel: float = 0.35  #: of strut and tyre of a nose gear [m]
     rolling_pitch: float = 0.0  #: against the runway, on all wheels [rad]
     rolling_pitch_sd: float = np.deg2rad(0.22)  #: servicing, struts at work [rad]
 
@@ -95,20 +88,17 @@ def geometry_on_gears(
     centre_of_gravity_sd: float = 0.05,
 ) -> Geometry:
     """Geometry from gears, centre of gravity (3,) structural axes [m] and mass [kg]."""
-    foremost = min(float(gear.pivot[0]) for gear in gears)
     wheels = []
     for gear in gears:
-        place = Place.LEFT if gear.pivot[1] < 0 else Place.RIGHT
-        if abs(gear.pivot[1]) < 0.2 and gear.pivot[0] == foremost:
-            place = Place.NOSE
         bottom = gear.extended_axle - np.array([0.0, 0.0, gear.tyre.free_radius])
-        wheels.append(Wheel(gear.name, place, bottom))
+        wheels.append(Wheel(gear.name, place_of(gear, gears), bottom))
     return Geometry(
         centre_of_gravity=centre_of_gravity,
         wheels=tuple(wheels),
         installation=installation or usual_installation(centre_of_gravity, gears),
         centre_of_gravity_sd=centre_of_gravity_sd,
         static_closure=_main_closure(gears, wheels, centre_of_gravity, mass),
+        nose_travel=_nose_travel(gears, wheels, centre_of_gravity, mass),
         rolling_pitch=_rolling_pitch(gears, wheels, centre_of_gravity, mass),
     )
 
@@ -153,20 +143,39 @@ def _nose_share(gears: tuple[Gear, ...], wheels: list[Wheel], centre_of_gravity:
     return float((main - centre_of_gravity[0]) / (main - nose))
 
 
+def _nose_travel(
+    gears: tuple[Gear, ...], wheels: list[Wheel], centre_of_gravity: Array, mass: float
+) -> float:
+    """Closure of a nose gear whose strut is closed and whose tyre carries its share at rest [m]."""
+    load = _nose_share(gears, wheels, centre_of_gravity) * mass * GRAVITY
+    return max(
+        (
+            gear.strut.full_stroke + _tyre_deflection(gear, load)
+            for gear, wheel in zip(gears, wheels, strict=True)
+            if wheel.place is Place.NOSE
+        ),
+        default=0.0,
+    )
+
+
 def _static_closure(gear: Gear, load: float) -> float:
     """Closure of strut and tyre of a gear under a load [m].
 
-    Oleo as a gas spring at rest (NACA Report 1154), tyre by its own static law.
+    Oleo as a gas spring at rest (NACA Report 1154).
     """
-    strut, tyre = gear.strut, gear.tyre
+    strut = gear.strut
     volume, area = strut.initial_gas_volume, strut.pneumatic_area
     preload = strut.initial_gas_pressure * area
     packed = (preload / load) ** (1 / strut.polytropic_exponent) if load > preload else 1.0
     stroke = min(volume / area * (1 - packed), strut.full_stroke)
-    deflection = (max(load, 0.0) / tyre.count / tyre.vertical_coefficient) ** (
-        1 / tyre.vertical_exponent
-    )
-    return float(stroke + deflection)
+    return float(stroke + _tyre_deflection(gear, load))
+
+
+def _tyre_deflection(gear: Gear, load: float) -> float:
+    """Deflection of a gear's tyres under a load, by their own static law [m]."""
+    tyre = gear.tyre
+    of_each = max(load, 0.0) / tyre.count / tyre.vertical_coefficient
+    return float(of_each ** (1 / tyre.vertical_exponent))
 
 
 def point_geometry() -> Geometry:

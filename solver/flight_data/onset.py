@@ -1,6 +1,7 @@
 """When a shock began, from the samples around its rise through the filter of the recorder."""
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
@@ -32,6 +33,10 @@ _MISFIT = 0.1
 #: brake or a gust in between, a shock of several pulses.
 _SPREAD = 0.2
 
+#: Load that may come up before: parts of the shock's height, and how long before [s].
+_LEADING_SHARES = (0.15, 0.3, 0.5)
+_LEADS = (0.1, 0.2, 0.3, 0.45)
+
 #: Height of the shock over the highest sample around its rise.
 _HEIGHTS = (0.7, 0.85, 1.0, 1.2, 1.5, 2.0, 3.0)
 
@@ -59,7 +64,14 @@ def ramp_response(time: Array, rise: Array | float, corner: float) -> Array:
 
 
 def rise_onset(
-    name: str, series: Series, grid: Array, noise: float, until: float, apart: float
+    name: str,
+    series: Series,
+    grid: Array,
+    noise: float,
+    until: float,
+    apart: float,
+    *,
+    is_led: bool = False,
 ) -> Indicator | None:
     """Time at which a quantity began to rise after it had been level or falling, as in a hop.
 
@@ -75,6 +87,8 @@ def rise_onset(
         Later samples show the oleo's course and not the onset [s].
     apart : float
         Time between the touches of two gears, over which the rise is drawn out [s].
+    is_led : bool, optional
+        Whether another load comes up before it, as that of a nose wheel that is on the ground.
 
     Returns
     -------
@@ -95,7 +109,7 @@ def rise_onset(
     height = float(shown.max())
     if height < 2.0 * scatter:
         return None
-    return _posterior(name, series, grid, time[during], shown, scatter, height, apart)
+    return _posterior(name, series, grid, time[during], shown, scatter, height, apart, is_led)
 
 
 #: Samples that show the level before a rise; a hop holds no more.
@@ -111,14 +125,22 @@ def _posterior(
     scatter: float,
     height: float,
     apart: float,
+    is_led: bool,
 ) -> Indicator:
-    """Likelihood of each onset, averaged over rise times and heights."""
+    """Likelihood of each onset, averaged over rise times, heights, and loads before it."""
     since = time[None, None, :] - grid[:, None, None]
     rises = np.array(_RISES)[None, :, None] + apart * np.array(_DRAWN_OUT)[None, :, None]
     response = ramp_response(since, rises, series.entry.corner.value)
+    leading = [np.zeros_like(response)]
+    if is_led:
+        leading += [
+            share * height * ramp_response(since + lead, lead, series.entry.corner.value)
+            for share in _LEADING_SHARES
+            for lead in _LEADS
+        ]
     likelihoods = []
-    for factor in _HEIGHTS:
-        expected = factor * height * response
+    for factor, before in product(_HEIGHTS, leading):
+        expected = factor * height * response + before
         sd = np.hypot(scatter, _MISFIT * factor * height * np.minimum(3 * response, 1.0))
         fit = (-0.5 * ((shown - expected) / sd) ** 2 - np.log(sd)).sum(axis=2)
         likelihoods.append(fit - 0.5 * (np.log(factor) / _HEIGHT_SPREAD) ** 2)

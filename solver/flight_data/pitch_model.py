@@ -12,9 +12,10 @@ import numpy as np
 from solver.arrays import Array
 from solver.flight_data.alignment import Series
 from solver.flight_data.contacts import ContactKind, ContactTime
-from solver.flight_data.geometry import Geometry, Place
+from solver.flight_data.geometry import Geometry
 from solver.flight_data.touchdown import Courses
 from solver.flight_data.wheels import lowest_course
+from solver.gear.place import Place
 from solver.landing.records import GRAVITY
 
 #: Radius of gyration in pitch per wheel base; an assumption, of the usual size for jets.

@@ -7,11 +7,12 @@ import numpy as np
 from solver.flight_data.alignment import Series, best
 from solver.flight_data.ambiguity import widened, widened_state
 from solver.flight_data.bounces import later_contacts
-from solver.flight_data.contacts import ContactKind, ContactTime
+from solver.flight_data.contacts import NOSE_KINDS, ContactKind, ContactTime
 from solver.flight_data.datum import Datum
 from solver.flight_data.derotation import nose_contact
 from solver.flight_data.first_contact import first_contact, is_nose_first, nose_first
 from solver.flight_data.geometry import Geometry
+from solver.flight_data.nose_wheel import nose_wheel_is_down, within_travel
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.smoothing import smooth_window, touching_wheels
 from solver.flight_data.sufficiency import Shortcoming, UndeterminedError, check_gaps, shortcomings
@@ -37,6 +38,7 @@ class FoundContact:
     timing: ContactTime
     state: TouchdownState
     chance: float = 1.0  #: that there was such a contact; a bounce may be none
+    nose_wheel_down: bool = False  #: it stayed on the ground through the hop
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +106,8 @@ def _followed(
         if nose is not None:
             contacts = sorted([*contacts, nose], key=lambda contact: contact.time)
             courses = smooth_window(window, normal, geometry, contacts, datum)
-    return courses, tuple(_found(contact, courses, geometry) for contact in contacts)
+    touched = [contact.time for contact in contacts if contact.kind in NOSE_KINDS]
+    return courses, tuple(_found(contact, courses, geometry, touched) for contact in contacts)
 
 
 def _widened(
@@ -142,13 +145,20 @@ def _counterpart(
     )
 
 
-def _found(contact: ContactTime, courses: Courses, geometry: Geometry) -> FoundContact:
+def _found(
+    contact: ContactTime, courses: Courses, geometry: Geometry, nose_touched: list[float]
+) -> FoundContact:
     at = np.array([contact.time])
     lowest = min(
         touching_wheels(contact.kind, geometry),
         key=lambda wheel: float(wheel_course(courses, geometry, wheel, at)[0][0]),
     )
     state = touchdown_state(courses, geometry, contact.time, contact.sd)
+    is_down = contact.kind is ContactKind.BOUNCE and nose_wheel_is_down(
+        state, contact.time, nose_touched, geometry
+    )
+    if is_down:
+        state = within_travel(state, geometry)
     return FoundContact(
-        contact.kind, contact.time, contact.sd, lowest.gear, contact, state, contact.chance
+        contact.kind, contact.time, contact.sd, lowest.gear, contact, state, contact.chance, is_down
     )

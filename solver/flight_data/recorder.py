@@ -7,11 +7,12 @@ import numpy as np
 from solver.arrays import Array
 from solver.flight_data.anti_alias import anti_aliased
 from solver.flight_data.frame import RecordedParameter, RecorderFrame
-from solver.flight_data.geometry import Geometry, Place, antenna_height
+from solver.flight_data.geometry import Geometry, antenna_height
 from solver.flight_data.motion import Motion, height_at, specific_force_at, velocity_at
 from solver.flight_data.parameter import HEADINGS, SWITCHES, Parameter
 from solver.flight_data.window import Channel, Window
 from solver.frames import euler_from_quaternion
+from solver.gear.place import Place
 from solver.landing.records import GRAVITY
 
 #: Closure of a strut at which its ground switch is taken to move [m].

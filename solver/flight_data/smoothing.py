@@ -4,7 +4,7 @@ import numpy as np
 
 from solver.arrays import Array
 from solver.flight_data.alignment import Series, aligned, best
-from solver.flight_data.contacts import ContactKind, ContactTime
+from solver.flight_data.contacts import NOSE_KINDS, ContactKind, ContactTime
 from solver.flight_data.course import (
     ATTITUDE_ACTIVITY,
     SPEED_ACTIVITY,
@@ -13,7 +13,7 @@ from solver.flight_data.course import (
     smooth_course,
 )
 from solver.flight_data.datum import Datum
-from solver.flight_data.geometry import Geometry, Place, Wheel
+from solver.flight_data.geometry import Geometry, Wheel
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.sufficiency import Shortcoming, UndeterminedError
 from solver.flight_data.touchdown import Courses
@@ -21,6 +21,7 @@ from solver.flight_data.vertical import OVER_RUNWAY, smooth_vertical
 from solver.flight_data.vertical_acceleration import VerticalSources
 from solver.flight_data.vertical_course import Touch
 from solver.flight_data.window import Window
+from solver.gear.place import Place
 
 #: How long before and after the first contact the motion is smoothed [s].
 BEFORE, AFTER = 9.0, 7.0
@@ -31,6 +32,10 @@ SETTLING = 3.0
 #: Spectral density of the angular acceleration while the ground acts: half a rad/s2 over a fifth of
 #: a second [rad2/s3].
 SHOCK = 0.05
+
+#: The same in pitch towards the end of a hop, for a nose wheel that has come down before: it turns
+#: the aircraft by a rad/s2 and more over a third of a second [rad2/s3, s].
+NOSE_SHOCK, NOSE_SPAN = 0.1, 0.5
 
 #: The same of an aircraft that rolls on its wheels [rad2/s3].
 ROLLING = 1e-3
@@ -63,14 +68,18 @@ def smooth_window(
     nodes = np.unique(np.concatenate([[span[0], span[1]], [c.time for c in contacts]]))
     shocks = [(c.time, c.time + SHOCK_SPAN, SHOCK) for c in contacts]
     yaw_shocks = [(start, end, YAW_SHOCK) for start, end, _ in shocks]
-    pitch = _course(window, Parameter.PITCH, nodes, shocks, ATTITUDE_ACTIVITY, (first, ROLLING))
-    roll = _course(window, Parameter.ROLL, nodes, shocks, ATTITUDE_ACTIVITY, (first, ROLLING))
+    struck = [
+        (c.time - NOSE_SPAN, c.time, NOSE_SHOCK) for c in contacts if c.kind is ContactKind.BOUNCE
+    ]
+    ground = (first, ROLLING)
+    pitch = _course(window, Parameter.PITCH, nodes, shocks + struck, ATTITUDE_ACTIVITY, ground)
+    roll = _course(window, Parameter.ROLL, nodes, shocks, ATTITUDE_ACTIVITY, ground)
     if pitch is None or roll is None:
         raise UndeterminedError(_NO_ATTITUDE)
     heading = _course(window, Parameter.HEADING, nodes, yaw_shocks, YAW_ACTIVITY)
     drift = _course(window, Parameter.DRIFT, nodes, yaw_shocks, YAW_ACTIVITY)
-    ground = _course(window, Parameter.GROUND_SPEED, nodes, [], SPEED_ACTIVITY)
-    speed = USUAL_SPEED if ground is None else float(ground.at(first))
+    ground_speed = _course(window, Parameter.GROUND_SPEED, nodes, [], SPEED_ACTIVITY)
+    speed = USUAL_SPEED if ground_speed is None else float(ground_speed.at(first))
     sources = VerticalSources(
         normal=normal,
         lateral=best(window, Parameter.LATERAL_ACCELERATION),
@@ -97,7 +106,7 @@ def smooth_window(
         first - OVER_RUNWAY,
         span,
     )
-    return Courses(vertical, pitch, roll, heading, drift, ground)
+    return Courses(vertical, pitch, roll, heading, drift, ground_speed)
 
 
 def _course(
@@ -124,5 +133,4 @@ _NO_ATTITUDE = Shortcoming(
 
 def touching_wheels(kind: ContactKind, geometry: Geometry) -> tuple[Wheel, ...]:
     """Wheels of which the lowest touches in a contact."""
-    is_nose = kind in (ContactKind.DEROTATION, ContactKind.NOSE_FIRST)
-    return geometry.of(Place.NOSE) if is_nose else geometry.mains
+    return geometry.of(Place.NOSE) if kind in NOSE_KINDS else geometry.mains

@@ -8,6 +8,7 @@ import numpy as np
 from solver.arrays import Array
 from solver.errors import ModelError
 from solver.gear.parameters import Gear
+from solver.gear.place import Place, place_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +102,12 @@ class LandingAircraft:
         names = [gear.name for gear in self.gears]
         if not names or len(set(names)) != len(names):
             raise ModelError(f"gears need distinct names, got {names}")
+
+    @property
+    def nose_gears(self) -> tuple[int, ...]:
+        """Which of the gears are the nose's."""
+        places = [place_of(gear, self.gears) for gear in self.gears]
+        return tuple(index for index, place in enumerate(places) if place is Place.NOSE)
 
     @property
     def total_mass(self) -> float:

@@ -21,7 +21,9 @@ class Lift:
     """
 
     model: LiftModel = LiftModel.DECAYING
-    fraction: float = 1.0  #: of the aircraft's weight at the contact
+    #: Of the aircraft's weight at the contact.  What a nose wheel that is down carries is part of
+    #: it: the acceleration before the contact shows both together.
+    fraction: float = 1.0
     decay_start: float = 0.5  #: after the first contact, spoilers out [s]
     decay_time: float = 1.0  #: time constant [s]
     residual_fraction: float = 0.3  #: of the weight, what lift tends to
@@ -49,3 +51,5 @@ class Contact:
     yaw_rate: float = 0.0  #: body r [rad/s]
     lift: Lift = Lift()
     time: float = 0.0  #: of this contact in the record [s]
+    #: The nose wheel stayed on the ground since the contact before: the main wheels touch.
+    nose_wheel_down: bool = False

@@ -1,4 +1,9 @@
-"""The state at the first instant: the first tyre just touches, the gears hang in equilibrium."""
+"""The state at the first instant: the first tyre just touches, the gears hang in equilibrium.
+
+Gears that were on the ground before are closed by what the touching one leaves to them.
+"""
+
+from functools import partial
 
 import numpy as np
 
@@ -14,6 +19,7 @@ from solver.landing.equations import (
     WORK_STATES,
     evaluate,
 )
+from solver.landing.grounded import Evaluation, stand_on_grounded
 from solver.landing.lift import angle_of_attack
 from solver.landing.records import Record, Records
 
@@ -53,6 +59,7 @@ def initial_state(
     gears: Records,
     course: Array,
     wheel_speeds: Array | None = None,
+    down: tuple[int, ...] = (),
 ) -> Array:
     """State vector at the first ground contact.
 
@@ -66,13 +73,20 @@ def initial_state(
         Motion of the WHOLE aircraft's centre of gravity.
     airframe, gears, course
         As for `solver.landing.equations.evaluate`; the airframe's angle of attack at the contact
-        is filled in here.
+        is filled in here, and what the gears that are down carry is taken off the lift.
     wheel_speeds : (n_gears,) array, optional
         At which the wheels turn already, forward positive [rad/s]; at rest by default.
+    down : tuple of int, optional
+        Gears that are on the ground already, rolling; the first tyre of the others touches.
 
     Returns
     -------
     (13 + 5 n_gears + 4,) array
+
+    Raises
+    ------
+    SimulationDivergedError
+        The gears find no rest.
     """
     state = np.zeros(AIRFRAME_STATES + GEAR_STATES * len(gears) + WORK_STATES)
     state[2] = -_CLEAR
@@ -87,10 +101,23 @@ def initial_state(
         state[AIRFRAME_STATES + 4 : end : GEAR_STATES] = wheel_speeds
     point_velocity = turn.T @ state[7:10] + np.cross(rate, airframe["lift_point"])
     airframe["contact_angle_of_attack"] = angle_of_attack(tuple(point_velocity))
-    _hang(state, airframe, gears, course)
-    _, _, gear_answers = _evaluated(state, airframe, gears, course)
+    evaluation = partial(_evaluated, airframe=airframe, gears=gears, course=course)
+    _hang(state, airframe, gears, evaluation)
+    touching = [index for index in range(len(gears)) if index not in down]
     # The deflection of a tyre grows with the depth one to one.
-    state[2] = -_CLEAR - np.max(gear_answers["deflection"])
+    state[2] = -_CLEAR - np.max(evaluation(state)[2]["deflection"][touching])
+    if down:
+        weight = airframe["total_mass"] * airframe["gravity"]
+        fraction, hanging = course[0], state.copy()
+        # Lift decays: it is not less than what it tends to.
+        least = min(fraction, course[3]) if np.isfinite(course[1]) else 0.0
+        # The lift that is left changes how the struts fall with the aircraft, by little.
+        for _ in range(2):
+            state[:] = hanging
+            stand_on_grounded(state, down, gears, evaluation, (fraction - least) * weight)
+            _bring_to_rest(state, gears, evaluation)
+            carried = evaluation(state)[2]["normal"].sum()
+            course[0] = fraction - carried / weight
     return state
 
 
@@ -104,27 +131,31 @@ def _evaluated(
     return derivative, answers[0], gear_answers
 
 
-def _hang(state: Array, airframe: Record, gears: Records, course: Array) -> None:
+def _hang(state: Array, airframe: Record, gears: Records, evaluation: Evaluation) -> None:
+    """Guess where the gears hang and bring them to rest there."""
+    for index, gear in enumerate(gears):
+        preload = gear["pneumatic_area"] * gear["initial_gas_pressure"]
+        hanging = gear["unsprung_mass"] * airframe["gravity"]
+        state[AIRFRAME_STATES + GEAR_STATES * index] = -(preload + hanging) / gear["stop_stiffness"]
+    _bring_to_rest(state, gears, evaluation)
+
+
+def _bring_to_rest(state: Array, gears: Records, evaluation: Evaluation) -> None:
     """Newton's method on stroke and swing until the gears' own accelerations vanish."""
     free = []
     for index, gear in enumerate(gears):
         at = AIRFRAME_STATES + GEAR_STATES * index
-        preload = gear["pneumatic_area"] * gear["initial_gas_pressure"]
-        hanging = gear["unsprung_mass"] * airframe["gravity"]
-        state[at] = -(preload + hanging) / gear["stop_stiffness"]
-        free.append(at)
-        if gear["swings"]:
-            free.append(at + 2)
+        free += [at, at + 2] if gear["swings"] else [at]
     unknowns = np.array(free)
     for _ in range(20):
-        residual = _evaluated(state, airframe, gears, course)[0][unknowns + 1]
+        residual = evaluation(state)[0][unknowns + 1]
         if np.max(np.abs(residual)) < 1e-8:
             return
         slope = np.empty((len(unknowns), len(unknowns)))
         for column, unknown in enumerate(unknowns):
             moved = state.copy()
             moved[unknown] += 1e-7
-            slope[:, column] = _evaluated(moved, airframe, gears, course)[0][unknowns + 1]
+            slope[:, column] = evaluation(moved)[0][unknowns + 1]
         state[unknowns] -= np.linalg.solve((slope - residual[:, None]) / 1e-7, residual)
     raise SimulationDivergedError(
         f"the gears find no rest before the contact, accelerations {residual} left"

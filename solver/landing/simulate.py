@@ -1,6 +1,6 @@
 """One landing: from the first contact until the aircraft rolls, or a stated limit."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -123,7 +123,9 @@ def _integrated(
     lift = np.array(
         [course.fraction, course.decay_start, course.decay_time, course.residual_fraction]
     )
-    state = initial_state(contact, airframe, gears, lift, wheel_speeds)
+    down = aircraft.nose_gears if contact.nose_wheel_down else ()
+    state = initial_state(contact, airframe, gears, lift, wheel_speeds, down)
+    course = replace(course, fraction=float(lift[0]))
     scale = state_scale(len(gears))
 
     interval = options.output_interval

@@ -14,6 +14,7 @@ physics forbids is moved to the nearest value it allows:
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -150,7 +151,7 @@ class LandingVariables:
     def _contact(self, number: int, normals: Array, lift: Array) -> Contact:
         nominal = self._contacts[number]
         change = dict(zip(CONTACT_COMPONENTS, self._roots[number] @ normals, strict=True))
-        state = {
+        state: dict[str, Any] = {
             name: float(np.clip(getattr(nominal, name) + change[name], *RANGES[name]))
             for name in CONTACT_COMPONENTS
             if name != "lift_fraction"

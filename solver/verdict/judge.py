@@ -196,6 +196,8 @@ def _conditions(
     positions = {gear.name: gear.position for gear in definition.gears}
     for number, (contact, history) in enumerate(zip(record.contacts, histories, strict=True), 1):
         switches = {each.nose_first for each in record.recorded if each.simulated == number - 1}
+        if contact.nose_wheel_down:
+            switches.add(False)
         nose = _nose_first(positions, history, switches, is_first=number == 1)
         if nose is not None:
             yield Reason(
@@ -241,7 +243,7 @@ def _nose_first(
     Near the attitude of three wheels a small error of pitch decides which one the simulation brings
     down first.  Switches that showed the nose wheel first are believed; where they showed a main
     wheel first, the simulated nose counts if it leads by more than their sampling.  After the first
-    contact it may be on the ground all the while, which no simulation of a contact knows.
+    contact it may have been on the ground all the while.
     """
     first = {
         place: min(

@@ -48,7 +48,12 @@ def apply_rule(
         gear switches do not.
     """
     contacts = record.recorded or tuple(
-        RecordedContact(sink_rate=contact.sink_rate, roll=contact.roll, simulated=index)
+        RecordedContact(
+            sink_rate=contact.sink_rate,
+            roll=contact.roll,
+            nose_first=False if contact.nose_wheel_down else None,
+            simulated=index,
+        )
         for index, contact in enumerate(record.contacts)
     )
     findings = tuple(

@@ -55,6 +55,12 @@ class TestIntake:
         assert second.sink_rate == pytest.approx(2.0 * 0.3048)
         assert len(taken.contacts) == 1
 
+    def test_a_nose_wheel_that_is_down_is_not_first(self) -> None:
+        hop = [complete(1.3), contact(2.0, nose_wheel_down=True)]
+        taken = take_in(parse_record(record(contacts=hop)), mini_definition()).record
+        assert [each.nose_wheel_down for each in taken.contacts] == [False, True]
+        assert taken.recorded[1].nose_first is False
+
     def test_accelerations_in_other_units(self) -> None:
         peak = {"value": 19.6133, "unit": "m/s2", "rate_hz": 8}
         taken = take_in(

@@ -175,6 +175,20 @@ BAD_RECORDS: list[tuple[str, Any, str, str, str]] = [
         "g",
     ),
     ("contacts out of order", record(contacts=[contact(seq=2)]), "contacts[0].seq", "2", "1"),
+    (
+        "nose wheel down before it touched",
+        record(contacts=[contact(nose_wheel_down=True)]),
+        "contacts[0].nose_wheel_down",
+        "True",
+        "false",
+    ),
+    (
+        "nose wheel down and first",
+        record(contacts=[contact(), contact(nose_wheel_down=True, first_gear="N")]),
+        "contacts[1].first_gear",
+        "N",
+        "a main gear",
+    ),
     ("null byte", record(record_id="a\0b"), "record_id", "a\\0b", "matching"),
     ("half a character", record(record_id="\ud800"), "record_id", "ud800", ""),
     (

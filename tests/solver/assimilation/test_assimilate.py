@@ -15,10 +15,11 @@ from solver.assimilation.parameters import GAS_PRESSURE, contact_values
 from solver.assimilation.scattered_landing import scattered_landing
 from solver.flight_data.contacts import ContactKind
 from solver.flight_data.frame_file import packaged_frame
-from solver.flight_data.geometry import Geometry, Place
+from solver.flight_data.geometry import Geometry
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import Reconstruction, reconstruct
 from solver.flight_data.window import Window
+from solver.gear.place import Place
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Lift
 from tests.solver.assimilation.conftest import Recovered

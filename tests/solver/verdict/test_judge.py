@@ -226,6 +226,16 @@ class TestContactConditions:
             reasons = judge(definition, record, 11_000.0, [MAINS_FIRST, hop], (), spot(0.1))
             assert ("nose_first" in {reason.code for reason in reasons}) is named
 
+    def test_a_nose_wheel_that_is_down_does_not_touch(self, definition: AircraftDefinition) -> None:
+        both = history(("nose", 0.0), ("main_left", 0.001), ("main_right", 0.01))
+        for is_down in (True, False):
+            record = TouchdownRecord(
+                aircraft=definition.name,
+                contacts=(CONTACT, dataclasses.replace(CONTACT, nose_wheel_down=is_down)),
+            )
+            reasons = judge(definition, record, 11_000.0, [MAINS_FIRST, both], (), spot(0.1))
+            assert ("nose_first" in {reason.code for reason in reasons}) is not is_down
+
     def test_a_bounce_onto_the_nose_after_the_mains_is_not_nose_first(
         self, definition: AircraftDefinition
     ) -> None:
