@@ -1,15 +1,18 @@
 """The one public call: the recorded response corrects what was believed of the first contact."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from solver.arrays import Array
 from solver.assimilation.contact_update import CorrectedContact, corrected
 from solver.assimilation.misfit import Misfit
 from solver.assimilation.model_error import ModelError
 from solver.assimilation.parameters import ServiceScatter, contact_with
 from solver.assimilation.samples import response_after
 from solver.assimilation.state import Believed
+from solver.errors import SolverError
 from solver.flight_data.contacts import ContactKind
 from solver.flight_data.geometry import Geometry
 from solver.flight_data.parameter import Parameter
@@ -18,6 +21,7 @@ from solver.flight_data.window import Window
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact, Lift
 from solver.landing.contact_uncertainty import CONTACT_COMPONENTS, ContactUncertainty
+from solver.landing.sequence import passage, until_next
 
 #: How long after a contact its response is compared: the shock, and the first swing after it [s].
 SPAN = 0.8
@@ -135,26 +139,42 @@ def assimilate(
         One update for each contact out of the air; the wheels that follow belong to it.  Later
         contacts keep their state and say why.
     """
-    updates = uncorrected(reconstruction, _BOUNCE).updates
-    if not updates:
-        return Assimilation(())
-    first, *later = updates
-    believed = Believed(
-        aircraft=aircraft,
-        geometry=geometry,
-        contact=first.prior,
-        covariance=first.found.state.covariance,
-        instant_sd=first.found.time_sd,
-        scatter=scatter or ServiceScatter(),
-    )
-    span = min([SPAN, *(each.found.time - first.found.time for each in later)])
-    answer, why = _answer(
-        window, reconstruction, first.found, believed, span, model_error or ModelError()
-    )
-    if answer is not None and not answer.misfit.is_explained:
-        why = "the stated uncertainties cannot explain the recorded response"
-    first = replace(first, corrected=answer, unchanged_because=why)
-    return Assimilation((first, *(_with_lift_of(first, each) for each in later)))
+    updates = list(uncorrected(reconstruction, "").updates)
+    scatter, model_error = scatter or ServiceScatter(), model_error or ModelError()
+    for number, update in enumerate(updates):
+        contacts = [each.contact for each in updates]
+        if number > 0:
+            update = _with_lift_of(updates[0], update)
+        try:
+            speeds = _wheel_speeds(aircraft, contacts[: number + 1])
+        except SolverError:
+            updates[number] = replace(update, unchanged_because="no wheels")
+            continue
+        believed = Believed(
+            aircraft=aircraft,
+            geometry=geometry,
+            contact=update.prior,
+            covariance=update.found.state.covariance,
+            instant_sd=update.found.time_sd,
+            scatter=scatter,
+            wheel_speeds=speeds,
+        )
+        span = min(SPAN, until_next(contacts, number))
+        answer, why = _answer(window, reconstruction, update.found, believed, span, model_error)
+        if answer is not None and not answer.misfit.is_explained:
+            why = "the stated uncertainties cannot explain the recorded response"
+        updates[number] = replace(update, corrected=answer, unchanged_because=why)
+    return Assimilation(tuple(updates))
+
+
+def _wheel_speeds(aircraft: LandingAircraft, contacts: Sequence[Contact]) -> Array | None:
+    """Speeds with which the wheels come to the last of some contacts, (n_gears,) [rad/s]."""
+    if len(contacts) == 1:
+        return None
+    history = None
+    for number, contact in enumerate(contacts[:-1]):
+        history = passage(contacts, number, history).simulate(aircraft, contact)
+    return passage(contacts, len(contacts) - 1, history).wheel_speeds
 
 
 def _with_lift_of(first: ContactUpdate, later: ContactUpdate) -> ContactUpdate:

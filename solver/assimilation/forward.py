@@ -57,7 +57,9 @@ class LandingPrediction:
         if key not in self._histories:
             aircraft, contact = simulated(self._prior, self._prior.named(whitened))
             try:
-                self._histories[key] = simulate_landing(aircraft, contact, self._options)
+                self._histories[key] = simulate_landing(
+                    aircraft, contact, self._options, self._prior.believed.wheel_speeds
+                )
             except SolverError:
                 # A step too far; the iteration takes a shorter one.
                 self._histories[key] = None

@@ -57,6 +57,7 @@ class Believed:
     covariance: Array  #: (9, 9) in the order of `CONTACT_COMPONENTS`
     instant_sd: float  #: [s]
     scatter: ServiceScatter
+    wheel_speeds: Array | None = None  #: (n_gears,) before the contact, None: at rest [rad/s]
 
 
 @dataclass(frozen=True, slots=True)
