@@ -148,7 +148,8 @@ def _found(contact: ContactTime, courses: Courses, geometry: Geometry) -> FoundC
         touching_wheels(contact.kind, geometry),
         key=lambda wheel: float(wheel_course(courses, geometry, wheel, at)[0][0]),
     )
-    state = touchdown_state(courses, geometry, contact.time, contact.sd)
+    is_first = contact.kind in (ContactKind.FIRST, ContactKind.NOSE_FIRST)
+    state = touchdown_state(courses, geometry, contact.time, contact.sd, is_first=is_first)
     return FoundContact(
         contact.kind, contact.time, contact.sd, lowest.gear, contact, state, contact.chance
     )

@@ -6,6 +6,7 @@ import numpy as np
 
 from solver.arrays import Array
 from solver.flight_data.course import Course
+from solver.flight_data.flown_lift import flown_lift
 from solver.flight_data.geometry import Geometry
 from solver.flight_data.lever import rise_rate
 from solver.flight_data.vertical_course import VerticalCourse
@@ -67,7 +68,7 @@ _CARRIED = 0.17
 
 
 def touchdown_state(
-    courses: Courses, geometry: Geometry, time: float, time_sd: float
+    courses: Courses, geometry: Geometry, time: float, time_sd: float, *, is_first: bool
 ) -> TouchdownState:
     """State just before a contact.
 
@@ -77,6 +78,8 @@ def touchdown_state(
     geometry : Geometry
     time, time_sd : float
         Of the contact [s].
+    is_first : bool
+        Nothing but flight lies before it.
     """
     pitch, pitch_covariance = courses.pitch.state(time)
     roll, roll_covariance = courses.roll.state(time)
@@ -87,7 +90,11 @@ def touchdown_state(
 
     # The unknown instant of the contact adds what changes meanwhile.
     up = _acceleration_before(courses.vertical, time)
-    lift = _lift(courses.vertical, time)
+    lift = (
+        Estimate(*flown_lift(courses.vertical, time, time_sd))
+        if is_first
+        else _lift_in_hop(courses.vertical, time)
+    )
     sensor = geometry.installation.accelerometer
     position_sd = geometry.installation.position_sd
     angles = (pitch[0], roll[0], pitch[1], roll[1])
@@ -189,12 +196,11 @@ def _acceleration_before(vertical: VerticalCourse, time: float) -> float:
     return float(vertical.acceleration[max(index, 0)])
 
 
-def _lift(vertical: VerticalCourse, time: float) -> Estimate:
-    """Lift over weight from the vertical acceleration before the contact.
+def _lift_in_hop(vertical: VerticalCourse, time: float) -> Estimate:
+    """Lift over weight from the vertical acceleration before a later contact.
 
-    In the air ``m a = L - m g`` along the vertical (thrust and drag have next to no part of it), so
-    that ``L / (m g) = 1 + a / g``; the last samples before the contact are averaged with a straight
-    line, because the flare goes on.
+    ``L / (m g) = 1 + a / g`` as in `flown_lift`; the last samples before the contact are averaged
+    with a straight line.
     """
     before = (vertical.time > time - _LIFT_SPAN) & (vertical.time < time)
     moment, value = vertical.time[before], vertical.acceleration[before] / GRAVITY
