@@ -110,11 +110,10 @@ def nose_contact(
         closing = closing_indicator("ground switches", switch, grid, _SWITCH_WAY / speed)
         if closing is not None:
             indicators.append(closing)
-    for each in indicators[1:]:
-        joint = joint + each.log_likelihood
+    lasting = joint + np.sum([each.log_likelihood for each in indicators[1:]], axis=0)
     left = np.hypot(_LEFT_OF_DEVIATION * sd, _HEIGHT_SD)
     touching = norm.pdf(height, scale=left) * speed * _STEP
-    return _likeliest(grid, _with_kisses(joint, not_before, touching), indicators)
+    return _likeliest(grid, _with_kisses(lasting, not_before, touching), indicators)
 
 
 def _considered(

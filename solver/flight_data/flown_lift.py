@@ -33,6 +33,9 @@ _DOUBTED = 3.0
 #: standard deviation; from nothing to half a g [g].
 _SHOCK = (0.1, 0.2)
 
+#: Least scatter of a sample, which keeps the covariance regular [g].
+_LEAST_NOISE = 1e-4
+
 #: Cuts that are less likely are left out.
 _LEAST_CHANCE = 1e-6
 
@@ -76,11 +79,12 @@ def flown_lift(vertical: VerticalCourse, time: float, time_sd: float) -> tuple[f
     rise = flown[clean:] - (flown[clean - 1] if clean else 0.0)
     by_shock = norm.logpdf(rise, *_SHOCK)
     likely = np.flatnonzero(chance > _LEAST_CHANCE)
+    noise = max(recorded.sd / GRAVITY, _LEAST_NOISE)
     logs, means, variances = [], [], []
     for length in _CORRELATION_TIMES:
         for deviation in _DEVIATIONS:
             covariance = _covariance(passed, passed, length, deviation)
-            covariance += (recorded.sd / GRAVITY) ** 2 * np.eye(len(passed))
+            covariance += noise**2 * np.eye(len(passed))
             factor = np.linalg.cholesky(covariance)
             innovation = solve_triangular(factor, flown, lower=True)
             by_flight = norm.logpdf(innovation) - np.log(np.diag(factor))

@@ -1,5 +1,7 @@
 """Lift at the first contact: closed forms, and flights drawn from the model itself."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.stats import truncnorm
@@ -78,3 +80,21 @@ def test_lift_is_as_uncertain_as_stated_in_flights_of_the_model() -> None:
         lift, sd = flown_lift(course(grid, shown), 0.03 * rng.standard_normal(), 0.03)
         squared.append(((lift - 1.0 - flown[-1]) / sd) ** 2)
     assert 0.65 < np.mean(squared) < 1.35
+
+
+def test_without_a_sample_of_flight_the_prior_stands() -> None:
+    # A tenth of a g about one, and the mean square of the gusts' deviations, all as likely.
+    time = np.arange(5.0, 9.0, 0.125)
+    lift, sd = flown_lift(course(time, np.full_like(time, 0.4)), 0.0, 0.02)
+    gusts = np.mean(np.square([0.005, 0.01, 0.02, 0.04, 0.08]))
+    assert lift == 1.0
+    assert sd == pytest.approx(np.sqrt(0.1**2 + gusts), rel=1e-6)
+
+
+def test_samples_without_noise_leave_the_lift_finite() -> None:
+    time = np.arange(-4.0, 1.0, 0.125)
+    steady = course(time, np.full_like(time, 0.05))
+    still = replace(steady, recorded=replace(steady.recorded, sd=0.0))
+    lift, sd = flown_lift(still, 0.4, 0.01)
+    assert lift == pytest.approx(1.05, abs=0.003)
+    assert 0.0 < sd < NOISE
