@@ -8,6 +8,7 @@ and of the attitude at which the aircraft then rolls.
 
 import numpy as np
 from scipy.special import log_ndtr
+from scipy.stats import norm
 
 from solver.arrays import Array
 from solver.flight_data.alignment import Series, aligned, best
@@ -25,7 +26,6 @@ from solver.flight_data.vote import (
     Ballot,
     Vote,
     closing_indicator,
-    first_time_down,
 )
 from solver.flight_data.wheels import wheel_course
 from solver.flight_data.window import Window
@@ -46,8 +46,8 @@ _FEWEST = 3
 #: is considered, and at least until the aircraft has settled on its wheels [s].
 _BEFORE, _AFTER, _SETTLED = 1.5, 1.5, 3.6
 
-#: Part of the stated deviation of the sensor's height that is left on the synthetic fleet (the
-#: smoother allows for shocks of any course), and what a wheel's height has besides it [m].
+#: Part of the stated deviation of a height that is left on the synthetic fleet (the smoother allows
+#: for shocks of any course), and what a wheel's height has besides it [m].
 _LEFT_OF_DEVIATION, _HEIGHT_SD = 0.65, 0.01
 
 #: Least scatter of a recorded angle [rad].
@@ -60,9 +60,9 @@ _DELAYS = np.linspace(-2.0, 2.0, 5)
 #: have touched lightly before, a mean would lie where no time is likely.
 _WANTED = 0.1
 
-#: Chance that a light touch went before the one that pitch and switch tell, and how long at least
-#: [s].
-_KISS, _LEAST_APART = 0.1, 0.2
+#: Chance that a light touch went before the one that pitch and switch tell, if the height passed
+#: zero then, and how long at least [s].
+_KISS, _LEAST_APART = 0.2, 0.2
 
 #: What the model of the pitch leaves open of the time [s].
 _MODEL_SD = 0.01
@@ -104,14 +104,17 @@ def nose_contact(
     span = (first - _BEFORE, min(last, float(courses.vertical.time[-1])))
     model = pitch_model(normal, courses, geometry, contacts, span)
     joint = _joint(model, pitch, courses, geometry, grid, span)
-    indicators = [indicator("nose height and pitch", grid, joint + _not_before(grid, height))]
+    not_before = _not_before(grid, height)
+    indicators = [indicator("nose height and pitch", grid, joint + not_before)]
     speed = _speed(grid, height)
     for switch in aligned(window, Parameter.GEAR_NOSE):
         closing = closing_indicator("ground switches", switch, grid, _SWITCH_WAY / speed)
         if closing is not None:
             indicators.append(closing)
-    touched = indicator("height", grid, first_time_down(grid, height, sd))
-    return _likeliest(grid, _with_kisses(indicators, touched), indicators)
+    lasting = joint + np.sum([each.log_likelihood for each in indicators[1:]], axis=0)
+    left = np.hypot(_LEFT_OF_DEVIATION * sd, _HEIGHT_SD)
+    touching = norm.pdf(height, scale=left) * speed * _STEP
+    return _likeliest(grid, _with_kisses(lasting, not_before, touching), indicators)
 
 
 def _considered(
@@ -199,20 +202,25 @@ def _not_before(grid: Array, height: Array) -> Array:
     return np.asarray(np.where(passed > 0, log_ndtr(margin), 0.0).min(axis=1))
 
 
-def _with_kisses(indicators: list[Indicator], touched: Indicator) -> Array:
-    """Chance of each time, (n,).
+def _with_kisses(lasting: Array, not_before: Array, touching: Array) -> Array:
+    """Chance of each time as that of the first touch, (n,).
 
-    Where pitch and switch tell a firm touch, the wheel may have touched lightly before, of which
-    only the height tells.
+    Where pitch and switch tell a touch that lasts, the wheel may have touched lightly before, of
+    which only the height tells: the more so the more likely it is to have passed zero by then.
+
+    Parameters
+    ----------
+    lasting : (n,) array
+        Log likelihood of each time as that of a touch that lasts.
+    not_before : (n,) array
+        Log of the chance that the wheel was not lower before.
+    touching : (n,) array
+        Chance that its height passes zero at each time.
     """
-    total = np.sum([each.log_likelihood for each in indicators], axis=0)
-    firm = np.exp(total - total.max())
-    firm /= firm.sum()
-    light = np.exp(touched.log_likelihood)
-    light /= light.sum()
+    firm = np.exp(lasting - lasting.max())
     apart = round(_LEAST_APART / _STEP)
     later = np.append(np.cumsum(firm[::-1])[::-1], np.zeros(apart))[apart:]
-    weight = (1 - _KISS) * firm + _KISS * light * later
+    weight = np.exp(not_before) * ((1 - _KISS) * firm + _KISS * touching * later)
     return np.asarray(weight / weight.sum())
 
 

@@ -106,8 +106,7 @@ def _followed(
         if nose is not None:
             contacts = sorted([*contacts, nose], key=lambda contact: contact.time)
             courses = smooth_window(window, normal, geometry, contacts, datum)
-    touched = [contact.time for contact in contacts if contact.kind in NOSE_KINDS]
-    return courses, tuple(_found(contact, courses, geometry, touched) for contact in contacts)
+    return courses, tuple(_found(contact, courses, geometry, contacts) for contact in contacts)
 
 
 def _widened(
@@ -146,16 +145,18 @@ def _counterpart(
 
 
 def _found(
-    contact: ContactTime, courses: Courses, geometry: Geometry, nose_touched: list[float]
+    contact: ContactTime, courses: Courses, geometry: Geometry, contacts: list[ContactTime]
 ) -> FoundContact:
     at = np.array([contact.time])
     lowest = min(
         touching_wheels(contact.kind, geometry),
         key=lambda wheel: float(wheel_course(courses, geometry, wheel, at)[0][0]),
     )
-    state = touchdown_state(courses, geometry, contact.time, contact.sd)
+    before = [other.time for other in contacts if other.time < contact.time]
+    state = touchdown_state(courses, geometry, contact.time, contact.sd, max(before, default=None))
+    touched = [other.time for other in contacts if other.kind in NOSE_KINDS]
     is_down = contact.kind is ContactKind.BOUNCE and nose_wheel_is_down(
-        state, contact.time, nose_touched, geometry
+        state, contact.time, touched, geometry
     )
     if is_down:
         state = within_travel(state, geometry)

@@ -6,6 +6,7 @@ import numpy as np
 
 from solver.arrays import Array
 from solver.flight_data.course import Course
+from solver.flight_data.flown_lift import flown_lift
 from solver.flight_data.geometry import Geometry
 from solver.flight_data.lever import rise_rate
 from solver.flight_data.vertical_course import VerticalCourse
@@ -56,18 +57,31 @@ class Courses:
 _UNKNOWN_DRIFT = (0.0, np.deg2rad(3.0))
 _UNKNOWN_YAW_RATE = (0.0, np.deg2rad(1.5))
 
-#: Slope of a runway, which levels show and landings do not know of [rad].
-_SLOPE_SD = 0.004
-
-#: Span over which the acceleration before the contact is averaged [s].
+#: Span over which the acceleration in a hop is averaged [s].
 _LIFT_SPAN = 0.6
 
 #: How far that average is carried on to the contact [s].
 _CARRIED = 0.17
 
+#: Least change of the acceleration meanwhile [g].
+_LEAST_CARRIED = 0.03
+
+#: After so long the shock of a contact has passed through struts and filter [s].
+_SHAKEN = 0.25
+
+#: Without samples of the hop, and least of what is left open [lift over weight].
+_UNKNOWN_LIFT = Estimate(0.7, 0.2)
+
+#: Slope of a runway, which levels show and landings do not know of [rad].
+_SLOPE_SD = 0.004
+
 
 def touchdown_state(
-    courses: Courses, geometry: Geometry, time: float, time_sd: float
+    courses: Courses,
+    geometry: Geometry,
+    time: float,
+    time_sd: float,
+    before: float | None = None,
 ) -> TouchdownState:
     """State just before a contact.
 
@@ -77,6 +91,8 @@ def touchdown_state(
     geometry : Geometry
     time, time_sd : float
         Of the contact [s].
+    before : float, optional
+        Time of the contact before it [s]; without it nothing but flight lies before.
     """
     pitch, pitch_covariance = courses.pitch.state(time)
     roll, roll_covariance = courses.roll.state(time)
@@ -87,7 +103,11 @@ def touchdown_state(
 
     # The unknown instant of the contact adds what changes meanwhile.
     up = _acceleration_before(courses.vertical, time)
-    lift = _lift(courses.vertical, time)
+    lift = (
+        Estimate(*flown_lift(courses.vertical, time, time_sd))
+        if before is None
+        else _lift_in_hop(courses.vertical, time, before)
+    )
     sensor = geometry.installation.accelerometer
     position_sd = geometry.installation.position_sd
     angles = (pitch[0], roll[0], pitch[1], roll[1])
@@ -189,28 +209,29 @@ def _acceleration_before(vertical: VerticalCourse, time: float) -> float:
     return float(vertical.acceleration[max(index, 0)])
 
 
-def _lift(vertical: VerticalCourse, time: float) -> Estimate:
-    """Lift over weight from the vertical acceleration before the contact.
+def _lift_in_hop(vertical: VerticalCourse, time: float, before: float) -> Estimate:
+    """Lift over weight from the vertical acceleration before a later contact.
 
-    In the air ``m a = L - m g`` along the vertical (thrust and drag have next to no part of it), so
-    that ``L / (m g) = 1 + a / g``; the last samples before the contact are averaged with a straight
-    line, because the flare goes on.
+    ``L / (m g) = 1 + a / g`` as in `flown_lift`, the load of a nose wheel that is down included.
+    The last samples before the contact are averaged with a straight line.
     """
-    before = (vertical.time > time - _LIFT_SPAN) & (vertical.time < time)
-    moment, value = vertical.time[before], vertical.acceleration[before] / GRAVITY
+    start = max(before + _SHAKEN, time - _LIFT_SPAN)
+    flown = (vertical.time > start) & (vertical.time < time)
+    moment, value = vertical.time[flown], vertical.acceleration[flown] / GRAVITY
     if len(np.unique(moment)) < 4:
-        return Estimate(1.0, 0.1)
+        return _UNKNOWN_LIFT
     design = np.stack([np.ones_like(moment), moment - time], axis=1)
     coefficients, *_ = np.linalg.lstsq(design, value, rcond=None)
     residual = value - design @ coefficients
     scatter = float(np.sqrt(residual @ residual / max(len(value) - 2, 1)))
     inverse = np.linalg.inv(design.T @ design)
     # The line is carried over to the contact from the middle of a sampling interval and a filter's
-    # delay before it; what the acceleration usually does meanwhile is the error of that.
-    earlier = np.arange(time - 3.0, time - _CARRIED, 0.05)
+    # delay before it; what the acceleration did over as long in the hop is the error of that.
+    earlier = np.arange(start, time - _CARRIED, 0.05)
     change = (
         np.interp(earlier + _CARRIED, vertical.time, vertical.acceleration)
         - np.interp(earlier, vertical.time, vertical.acceleration)
     ) / GRAVITY
-    sd = np.hypot(max(scatter, 0.01) * np.sqrt(inverse[0, 0]), np.hypot(np.std(change), 0.005))
+    carried = float(np.std(change)) if len(change) > 1 else 0.0
+    sd = np.hypot(max(scatter, 0.01) * np.sqrt(inverse[0, 0]), max(carried, _LEAST_CARRIED))
     return Estimate(1.0 + float(coefficients[0]), float(sd))

@@ -124,9 +124,14 @@ def shock_evidence(series: Series, grid: Array, shock: Shock, history: float) ->
 
 
 def _covariance(time: Array, length: float, deviation: float, noise: float) -> Array:
-    distance = np.sqrt(3.0) * np.abs(time[:, None] - time[None, :]) / length
-    moved = deviation**2 * (1.0 + distance) * np.exp(-distance)
+    moved = matern(time[:, None] - time[None, :], length, deviation)
     return np.asarray(moved + _LEVEL_SD**2 + noise**2 * np.eye(len(time)))
+
+
+def matern(apart: Array, length: float, deviation: float) -> Array:
+    """Matern covariance (exponent 3/2) of values so far apart; source as of `shock_evidence`."""
+    distance = np.sqrt(3.0) * np.abs(apart) / length
+    return np.asarray(deviation**2 * (1.0 + distance) * np.exp(-distance))
 
 
 def _fitted(time: Array, value: Array, noise: float) -> tuple[float, float]:

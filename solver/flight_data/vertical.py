@@ -12,7 +12,11 @@ from solver.arrays import Array
 from solver.flight_data.course import Course
 from solver.flight_data.geometry import Geometry
 from solver.flight_data.rts import LinearSystem, smooth
-from solver.flight_data.vertical_acceleration import VerticalSources, vertical_acceleration
+from solver.flight_data.vertical_acceleration import (
+    VerticalSources,
+    recorded_acceleration,
+    vertical_acceleration,
+)
 from solver.flight_data.vertical_course import (
     BIAS,
     HEIGHT,
@@ -21,6 +25,7 @@ from solver.flight_data.vertical_course import (
     PER_RADIO,
     RADIO,
     SPEED,
+    RecordedAcceleration,
     Touch,
     VerticalCourse,
 )
@@ -76,13 +81,14 @@ def smooth_vertical(
     span : (float, float)
         First and last instant [s].
     """
-    driven = vertical_acceleration(sources, pitch, roll, touches, span)
+    recorded = recorded_acceleration(sources, pitch, roll)
+    driven = vertical_acceleration(recorded, touches, span)
     ends = (float(driven[0][0]), float(driven[0][-1]))
     maker = VerticalMeasurements(sources, pitch, roll, geometry, over_runway_from, ends)
     variances = _initial_variances(sources, ground_speed, maker.size)
     # The delays act on the speed and acceleration that are being sought: a first pass gives them.
-    rough = _solved(driven, maker.all(touches, rolling_from, None), variances)
-    return _solved(driven, maker.all(touches, rolling_from, rough), variances)
+    rough = _solved(recorded, driven, maker.all(touches, rolling_from, None), variances)
+    return _solved(recorded, driven, maker.all(touches, rolling_from, rough), variances)
 
 
 def _initial_variances(sources: VerticalSources, ground_speed: float, size: int) -> Array:
@@ -104,7 +110,10 @@ def _initial_variances(sources: VerticalSources, ground_speed: float, size: int)
 
 
 def _solved(
-    driven: tuple[Array, Array, Array], measurements: list[Measurement], variances: Array
+    recorded: RecordedAcceleration,
+    driven: tuple[Array, Array, Array],
+    measurements: list[Measurement],
+    variances: Array,
 ) -> VerticalCourse:
     times = np.array([each.time for each in measurements])
     grid, up, between = _refined(driven, times)
@@ -143,8 +152,10 @@ def _solved(
         time=grid,
         height=result.mean[:, HEIGHT],
         speed=result.mean[:, SPEED],
-        covariance=result.covariance[:, :2, :2],
+        covariance=result.covariance[:, : BIAS + 1, : BIAS + 1],
         acceleration=up + result.mean[:, BIAS],
+        bias=result.mean[:, BIAS],
+        recorded=recorded,
     )
 
 

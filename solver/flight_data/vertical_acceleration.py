@@ -8,7 +8,7 @@ from solver.arrays import Array
 from solver.flight_data.alignment import Series
 from solver.flight_data.course import Course
 from solver.flight_data.datum import Datum
-from solver.flight_data.vertical_course import Touch
+from solver.flight_data.vertical_course import RecordedAcceleration, Touch
 from solver.landing.records import GRAVITY
 
 #: How much of the step between two samples of the acceleration the true course may leave; a step
@@ -34,18 +34,10 @@ class VerticalSources:
     datum: Datum
 
 
-def vertical_acceleration(
-    sources: VerticalSources,
-    pitch: Course,
-    roll: Course,
-    touches: tuple[Touch, ...],
-    span: tuple[float, float],
-) -> tuple[Array, Array, Array]:
-    """Nodes, vertical acceleration at them and the variance of speed that each step adds.
-
-    At a touch the acceleration jumps: the sample before it holds up to it, and the first one that
-    the filter lets show it holds back to it.
-    """
+def recorded_acceleration(
+    sources: VerticalSources, pitch: Course, roll: Course
+) -> RecordedAcceleration:
+    """Vertical acceleration at the samples of the normal one."""
     series = sources.normal
     value = series.value - sources.datum.offset
     sin, cos = np.sin(pitch.at(series.time)), np.cos(pitch.at(series.time))
@@ -55,19 +47,29 @@ def vertical_acceleration(
         for s in (sources.longitudinal, sources.lateral)
     )
     up = GRAVITY * (sin * forward - np.sin(angle) * cos * side + np.cos(angle) * cos * value - 1.0)
+    return RecordedAcceleration(series.time, up, series.sd * GRAVITY, series.interval, series.lag)
 
-    time = series.time
+
+def vertical_acceleration(
+    recorded: RecordedAcceleration, touches: tuple[Touch, ...], span: tuple[float, float]
+) -> tuple[Array, Array, Array]:
+    """Nodes, vertical acceleration at them and the variance of speed that each step adds.
+
+    At a touch the acceleration jumps: the sample before it holds up to it, and the first one that
+    the filter lets show it holds back to it.
+    """
+    time, up = recorded.time, recorded.up.copy()
     inside = [touch for touch in touches if time[1] < touch.time < time[-2]]
     for touch in inside:
-        _sharpen(time, up, touch.time, series.lag)
+        _sharpen(time, up, touch.time, recorded.lag)
     shocks = []
     for touch in sorted(inside, key=lambda touch: touch.time):
         at = int(np.searchsorted(time, touch.time))
-        settled = min(int(np.searchsorted(time, touch.time + 1.3 * series.lag)), len(up) - 1)
+        settled = min(int(np.searchsorted(time, touch.time + 1.3 * recorded.lag)), len(up) - 1)
         height = up[settled] - up[at - 1]
         # A contact at another time, or another course than a step, changes the speed after it.
         variance = (height * touch.sd) ** 2 + (
-            _COURSE * height * (series.interval + series.lag)
+            _COURSE * height * (recorded.interval + recorded.lag)
         ) ** 2
         shocks.append((touch.time, variance))
         time = np.insert(time, at, [touch.time, touch.time])
@@ -76,7 +78,7 @@ def vertical_acceleration(
     time, up = time[keep], up[keep]
     dt = np.diff(time)
     step = np.abs(np.diff(up))
-    noise = (series.sd * GRAVITY) ** 2 * series.interval * dt
+    noise = recorded.sd**2 * recorded.interval * dt
     between = (_BETWEEN * step * dt) ** 2 + noise + _FLOOR * dt
     for at_time, variance in shocks:
         after = int(np.searchsorted(time, at_time, side="right"))

@@ -21,19 +21,32 @@ class Touch:
 
 
 @dataclass(frozen=True, slots=True)
+class RecordedAcceleration:
+    """Vertical acceleration as the samples have it, before anything is put into its shape."""
+
+    time: Array  #: (n,) of the event shown, the filter's delay taken out [s]
+    up: Array  #: (n,) datum taken off, upward [m/s2]
+    sd: float  #: of what is independent from sample to sample [m/s2]
+    interval: float  #: between samples [s]
+    lag: float  #: delay of the filter before the sampler [s]
+
+
+@dataclass(frozen=True, slots=True)
 class VerticalCourse:
     """Smoothed motion of the accelerometer."""
 
     time: Array  #: (n,) [s]
     height: Array  #: (n,) [m]
     speed: Array  #: (n,) upward [m/s]
-    covariance: Array  #: (n, 2, 2) of height and speed
+    covariance: Array  #: (n, 3, 3) of height, speed and bias
     acceleration: Array  #: (n,) vertical, upward, bias taken out [m/s2]
+    bias: Array  #: (n,) to be added to the recorded acceleration [m/s2]
+    recorded: RecordedAcceleration
 
     def state(self, time: float) -> tuple[Array, Array]:
         """(2,) height and speed, (2, 2) covariance at the node nearest a time."""
         node = int(np.argmin(np.abs(self.time - time)))
-        return np.array([self.height[node], self.speed[node]]), self.covariance[node]
+        return np.array([self.height[node], self.speed[node]]), self.covariance[node, :2, :2]
 
     def speed_at(self, time: float) -> float:
         """Vertical speed at any time, upward [m/s]."""

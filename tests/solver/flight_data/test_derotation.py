@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from solver.arrays import Array
 from solver.flight_data.alignment import aligned
 from solver.flight_data.contacts import ContactKind
 from solver.flight_data.derotation import _with_kisses
@@ -83,15 +84,29 @@ def test_a_switch_that_stays_open_tells_nothing(window: Window) -> None:
     assert closing_indicator("switch", never, grid, np.zeros(len(grid))) is None
 
 
-def test_a_light_touch_is_possible_before_the_firm_one_only() -> None:
+def test_a_light_touch_is_as_likely_as_the_height_has_it() -> None:
     grid = np.arange(0.0, 2.0, 0.02)
-    firm = indicator("firm", grid, -0.5 * ((grid - 1.5) / 0.05) ** 2)
-    early = indicator("height", grid, -0.5 * ((grid - 0.5) / 0.05) ** 2)
-    late = indicator("height", grid, -0.5 * ((grid - 1.9) / 0.02) ** 2)
-    before, after = _with_kisses([firm], early), _with_kisses([firm], late)
-    # A tenth of the chance by assumption, all of it early.
-    assert before[grid < 1.0].sum() == pytest.approx(0.1, abs=1e-3)
-    assert after[grid > 1.8].sum() < 1e-3
+    lasting = -0.5 * ((grid - 1.5) / 0.05) ** 2
+    level = np.zeros(len(grid))
+
+    def passing(time: float, sure: float) -> Array:
+        shape = np.exp(-0.5 * ((grid - time) / 0.03) ** 2)
+        return sure * shape / shape.sum()
+
+    def early(weight: Array) -> float:
+        return float(weight[grid < 1.0].sum())
+
+    # A fifth by assumption where the height is sure to have passed zero, nothing where it was not.
+    assert early(_with_kisses(lasting, level, passing(0.5, 1.0))) == pytest.approx(0.2, abs=1e-3)
+    assert early(_with_kisses(lasting, level, passing(0.5, 0.0))) == pytest.approx(0.0, abs=1e-9)
+    # Bayes: odds of one to four times that of the wheel being lower before the touch that lasts.
+    lower = np.where(grid > 1.0, np.log(0.1), 0.0)
+    odds = 0.2 / (0.8 * 0.1)
+    assert early(_with_kisses(lasting, lower, passing(0.5, 1.0))) == pytest.approx(
+        odds / (1.0 + odds), abs=1e-3
+    )
+    # After the touch that lasts there is no first one.
+    assert _with_kisses(lasting, level, passing(1.9, 1.0))[grid > 1.8].sum() < 1e-3
 
 
 def test_aircraft_rolls_at_the_attitude_of_its_closed_struts(
