@@ -1,7 +1,9 @@
-"""The one public call: the recorded response corrects what was believed of the first contact."""
+"""The one public call: the recorded responses correct what was believed of the contacts."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 
 import numpy as np
 
@@ -21,20 +23,13 @@ from solver.flight_data.window import Window
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact, Lift
 from solver.landing.contact_uncertainty import CONTACT_COMPONENTS, ContactUncertainty
-from solver.landing.sequence import passage, until_next
+from solver.landing.sequence import passage
 
 #: How long after a contact its response is compared: the shock, and the first swing after it [s].
 SPAN = 0.8
 
 #: Before the next contact so soon nothing of a shock is in the samples [s].
 _SHORTEST = 0.25
-
-#: With wheels at rest and the lift not yet decaying two bounces in three were called unexplained,
-#: and sink rates got worse; with both carried on it has not been tried again.
-_BOUNCE = (
-    "only the first contact is: the simulation of a bounce begins with every strut extended, also "
-    "that of a nose wheel that had stayed down, which shows in its response"
-)
 
 #: The simulation of the contact before brings these wheels down by itself.
 FOLLOWING = (ContactKind.DEROTATION, ContactKind.MAINS, ContactKind.ONE_GEAR)
@@ -119,7 +114,7 @@ def assimilate(
     scatter: ServiceScatter | None = None,
     model_error: ModelError | None = None,
 ) -> Assimilation:
-    """Correct the first contact of a window by the response that was recorded after it.
+    """Correct the contacts of a window by the responses that were recorded after them.
 
     Parameters
     ----------
@@ -136,50 +131,51 @@ def assimilate(
     Returns
     -------
     Assimilation
-        One update for each contact out of the air; the wheels that follow belong to it.  Later
-        contacts keep their state and say why.
+        One update for each contact out of the air; the wheels that follow belong to it.  A later
+        contact goes on with the wheels and the course of the lift that the one before leaves.
     """
-    updates = list(uncorrected(reconstruction, "").updates)
+    updates: list[ContactUpdate] = []
     scatter, model_error = scatter or ServiceScatter(), model_error or ModelError()
-    for number, update in enumerate(updates):
-        contacts = [each.contact for each in updates]
-        if number > 0:
-            update = _with_lift_of(updates[0], update)
+    untouched = uncorrected(reconstruction, "").updates
+    for update, following in zip_longest(untouched, untouched[1:]):
+        if updates:
+            update = _with_lift_of(updates[-1], update)
+        until = math.inf if following is None else following.found.time - update.found.time
+        before = [each.contact for each in updates]
         try:
-            speeds = _wheel_speeds(aircraft, contacts[: number + 1])
-        except SolverError:
-            updates[number] = replace(update, unchanged_because="no wheels")
+            believed = Believed(
+                aircraft=aircraft,
+                geometry=geometry,
+                contact=update.prior,
+                covariance=update.found.state.covariance,
+                instant_sd=update.found.time_sd,
+                scatter=scatter,
+                wheel_speeds=_wheel_speeds(aircraft, [*before, update.prior]),
+            )
+        except SolverError as error:
+            why = f"a contact before it cannot be simulated: {error}"
+            updates.append(replace(update, unchanged_because=why))
             continue
-        believed = Believed(
-            aircraft=aircraft,
-            geometry=geometry,
-            contact=update.prior,
-            covariance=update.found.state.covariance,
-            instant_sd=update.found.time_sd,
-            scatter=scatter,
-            wheel_speeds=speeds,
+        answer, why = _answer(
+            window, reconstruction, update.found, believed, min(SPAN, until), model_error
         )
-        span = min(SPAN, until_next(contacts, number))
-        answer, why = _answer(window, reconstruction, update.found, believed, span, model_error)
         if answer is not None and not answer.misfit.is_explained:
             why = "the stated uncertainties cannot explain the recorded response"
-        updates[number] = replace(update, corrected=answer, unchanged_because=why)
+        updates.append(replace(update, corrected=answer, unchanged_because=why))
     return Assimilation(tuple(updates))
 
 
 def _wheel_speeds(aircraft: LandingAircraft, contacts: Sequence[Contact]) -> Array | None:
     """Speeds with which the wheels come to the last of some contacts, (n_gears,) [rad/s]."""
-    if len(contacts) == 1:
-        return None
     history = None
     for number, contact in enumerate(contacts[:-1]):
         history = passage(contacts, number, history).simulate(aircraft, contact)
     return passage(contacts, len(contacts) - 1, history).wheel_speeds
 
 
-def _with_lift_of(first: ContactUpdate, later: ContactUpdate) -> ContactUpdate:
-    """Later contact with the course of the lift that the first one's response tells."""
-    course = first.contact.lift.seen_from(later.prior.time)
+def _with_lift_of(before: ContactUpdate, later: ContactUpdate) -> ContactUpdate:
+    """Later contact with the course of the lift that the response to the one before tells."""
+    course = before.contact.lift.seen_from(later.prior.time - before.prior.time)
     lift = replace(course, fraction=later.prior.lift.fraction)
     return replace(later, prior=replace(later.prior, lift=lift))
 
@@ -230,10 +226,12 @@ def _answer(
         return None, f"the next contact follows after {span:.2f} s"
     normal = window.first(Parameter.NORMAL_ACCELERATION)
     interval = 1.0 / normal.rate if normal is not None and normal.rate > 0 else np.inf
+    # In a hop lift goes and a nose wheel takes up load, which the simulation begins after.
+    is_flown = believed.wheel_speeds is None
     response = response_after(
         window,
         found.time,
-        interval + 2.0 * found.time_sd,
+        interval + 2.0 * found.time_sd if is_flown else 0.0,
         span,
         reconstruction.datum,
         model_error,

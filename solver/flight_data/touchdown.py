@@ -64,7 +64,7 @@ _LIFT_SPAN = 0.6
 _CARRIED = 0.17
 
 #: Least change of the acceleration meanwhile [g].
-_LEAST_CARRIED = 0.03
+_LEAST_CARRIED = 0.04
 
 #: After so long the shock of a contact has passed through struts and filter [s].
 _SHAKEN = 0.25
