@@ -2,7 +2,8 @@
 
 ``python -m benchmarks.assimilation`` flies synthetic landings whose aircraft differs from the
 nominal one by the scatter of service, records each with one of the packaged frames in turn, and
-compares the state at the first contact before and after its response is looked at with the truth.
+compares the state at the first contact, and at each bounce, before and after its response is
+looked at with the truth.
 For each frame it prints the errors of the sink rate and the normalised error squared of the whole
 state, then how the misfit of good recordings is distributed, and how often stated defects are
 found.  ``--figure`` draws one response and the misfits.
@@ -21,19 +22,22 @@ from solver.arrays import Array
 from solver.assimilation.assimilate import ContactUpdate, assimilate
 from solver.assimilation.parameters import GAS_PRESSURE, contact_values
 from solver.assimilation.scattered_landing import scattered_landing
-from solver.flight_data.fleet import SyntheticLanding
 from solver.flight_data.frame_file import packaged_frame
 from solver.flight_data.geometry import aircraft_geometry
 from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import Reconstruction, reconstruct
 from solver.flight_data.window import Window
 from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
+from solver.landing.excerpt import contact_during
 
 AIRCRAFT = example_aircraft()
 GEOMETRY = aircraft_geometry(AIRCRAFT)
 
 #: A contact found so far from the true one is another one [s].
 LATE = 0.1
+
+#: A bounce is that of the simulation that is so near to it [s].
+MATCH = 0.4
 
 #: Sink rate from which a defect is worth finding [m/s].
 FIRM = 1.5
@@ -65,17 +69,18 @@ DEFECTS = (
 
 @dataclass(frozen=True, slots=True)
 class Flown:
-    """One landing, and what became of its first contact."""
+    """One contact, and what became of it."""
 
     frame: str
-    landing: SyntheticLanding
+    truth: Array  #: (9,) state at the contact
+    true_time: float  #: [s]
     update: ContactUpdate
-    seconds: float  #: processor time of the assimilation
+    seconds: float = 0.0  #: processor time of the assimilation of the whole landing
 
     @property
-    def truth(self) -> Array:
-        """State at the contact, (9,)."""
-        return contact_values(self.landing.contact)
+    def is_late(self) -> bool:
+        """Whether it was found so far from where it was that it is another one."""
+        return abs(self.update.found.time - self.true_time) >= LATE
 
     @property
     def errors(self) -> tuple[Array, Array]:
@@ -94,22 +99,38 @@ class Flown:
         return before, after
 
 
-def fly(number: int, seed: int, defect: Defect) -> Flown | None:
-    """Fly one landing; None if the window cannot tell or nothing could be compared."""
+def fly(number: int, seed: int, defect: Defect) -> list[Flown]:
+    """Fly one landing: its first contact, then its bounces; nothing if the window cannot tell.
+
+    Left out are contacts of which nothing could be compared, and bounces that were none.
+    """
     frame = FRAMES[number % len(FRAMES)]
-    landing = scattered_landing(
+    scattered = scattered_landing(
         AIRCRAFT, GEOMETRY, packaged_frame(frame), seed + number, defects=defect.changes
-    ).landing
+    )
+    landing = scattered.landing
     window = amplified(landing.window, defect.gain)
     found = reconstruct(window, GEOMETRY)
     if not found.contacts:
-        return None
+        return []
     begun = process_time()
     if defect.later:
         found = misplaced(found, defect.later)
-    update, *_ = assimilate(window, found, AIRCRAFT, GEOMETRY).updates
+    first, *later = assimilate(window, found, AIRCRAFT, GEOMETRY).updates
     seconds = process_time() - begun
-    return None if update.misfit is None else Flown(frame, landing, update, seconds)
+    if first.misfit is None:
+        return []
+    flown = [Flown(frame, contact_values(landing.contact), 0.0, first, seconds)]
+    for update in later:
+        times = np.array(landing.main_contacts(GEOMETRY)[1:])
+        apart = np.abs(times - update.found.time)
+        if update.misfit is None or not np.any(apart < MATCH):
+            continue
+        time = float(times[np.argmin(apart)])
+        history, sample = landing.history, int(np.searchsorted(landing.history.time, time))
+        true = contact_during(scattered.aircraft, history, sample, landing.contact.lift)
+        flown.append(Flown(frame, contact_values(true), time, update))
+    return flown
 
 
 def amplified(window: Window, gain: float) -> Window:
@@ -193,20 +214,18 @@ def misfits(flown: list[Flown]) -> dict[str, float]:
         "median_largest_pull": float(np.median(pulls)),
         "unexplained": sum(not m.is_explained for m in found),
         "unexplained_though_found_within_0.1_s": sum(
-            not each.update.misfit.is_explained and abs(each.update.found.time) < LATE
+            not each.update.misfit.is_explained and not each.is_late
             for each in flown
             if each.update.misfit is not None
         ),
-        "contacts_off_by_more_than_0.1_s": sum(
-            abs(each.update.found.time) >= LATE for each in flown
-        ),
+        "contacts_off_by_more_than_0.1_s": sum(each.is_late for each in flown),
     }
 
 
 def defect_row(defect: Defect, count: int, seed: int) -> dict[str, float | str]:
     """How often a defect is found, in all landings and in firm ones."""
-    flown = [each for k in range(count) if (each := fly(k, seed, defect)) is not None]
-    firm = [each for each in flown if each.landing.contact.sink_rate > FIRM]
+    flown = [each[0] for k in range(count) if (each := fly(k, seed, defect))]
+    firm = [each for each in flown if each.truth[0] > FIRM]
 
     def share(those: list[Flown]) -> float:
         return float(np.mean([bool(each.update.unchanged_because) for each in those]))
@@ -263,16 +282,22 @@ def show(title: str, rows: list[dict[str, float | str]]) -> None:
 def show_good(count: int, seed: int, figure: Path | None) -> dict[str, object]:
     """Fly landings without a defect and print what became of them."""
     good = Defect("none")
-    flown = [each for k in range(count) if (each := fly(k, seed, good)) is not None]
+    landings = [each for k in range(count) if (each := fly(k, seed, good))]
+    flown = [first for first, *_ in landings]
+    bounces = [bounce for _, *later in landings for bounce in later]
     document: dict[str, object] = {
         "sink_rate": (sink := sink_table(flown)),
         "components": (components := component_table(flown)),
         "misfit": (misfit := misfits(flown)),
+        "bounces": (bounced := component_table(bounces)),
+        "misfit_of_bounces": (bounce_misfit := misfits(bounces)),
         "seconds": float(np.mean([each.seconds for each in flown])),
     }
     show("sink rate [m/s] and normalised error squared of the state", sink)
     show("components, SI", components)
     print("\nmisfit of good recordings:", {k: round(v, 4) for k, v in misfit.items()})
+    show("bounces: components, SI", bounced)
+    print("\nmisfit of bounces:", {k: round(v, 4) for k, v in bounce_misfit.items()})
     print(f"processor time {document['seconds']:.2f} s a landing")
     if figure is not None:
         draw(figure, flown)

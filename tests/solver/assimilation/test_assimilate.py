@@ -21,11 +21,10 @@ from solver.flight_data.parameter import Parameter
 from solver.flight_data.reconstruction import Reconstruction, reconstruct
 from solver.flight_data.recorder import Surroundings, record
 from solver.flight_data.window import Window
-from solver.frames import body_structural, rotation_matrix
 from solver.gear.place import Place
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact, Lift
-from solver.landing.history import LandingHistory
+from solver.landing.excerpt import contact_during
 from solver.landing.simulate import SimulationOptions, simulate_landing
 from tests.solver.assimilation.conftest import Recovered
 
@@ -191,23 +190,14 @@ def test_a_response_corrects_a_bounce_as_well(
         assert bounce.found.nose_wheel_down
         assert bounce.is_corrected, bounce.misfit
         time = min(c.start for c in history.contacts if c.gear != "nose" and c.start > 1.0)
-        true = sink_rate_of_the_whole(aircraft, history, time)
+        at = int(np.searchsorted(history.time, time))
+        true = contact_during(aircraft, history, at, lift).sink_rate
         before.append((bounce.prior.sink_rate - true) / bounce.found.state.sink_rate.sd)
         after.append((bounce.contact.sink_rate - true) / bounce.uncertainty.matrix[0, 0] ** 0.5)
         assert bounce.uncertainty.matrix[0, 0] < 0.5 * bounce.prior_uncertainty.matrix[0, 0]
     # Chi-square of three degrees of freedom passes it once in a thousand.
     assert np.sum(np.square(before)) < 16.3
     assert np.sum(np.square(after)) < 16.3
-
-
-def sink_rate_of_the_whole(
-    aircraft: LandingAircraft, history: LandingHistory, time: float
-) -> float:
-    """Sink rate of the whole aircraft's centre of gravity [m/s]."""
-    at = int(np.searchsorted(history.time, time))
-    arm = body_structural(aircraft.total_centre_of_gravity - aircraft.centre_of_gravity)
-    velocity = history.velocity[at] + np.cross(history.rate[at], arm)
-    return float((rotation_matrix(history.attitude[at]) @ velocity)[2])
 
 
 def test_wheels_that_follow_belong_to_the_contact_before(landings: list[Recovered]) -> None:

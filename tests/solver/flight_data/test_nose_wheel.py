@@ -19,11 +19,11 @@ from solver.flight_data.reconstruction import FoundContact, reconstruct
 from solver.flight_data.recorder import Surroundings, record
 from solver.flight_data.touchdown import Estimate, TouchdownState
 from solver.flight_data.window import Window
-from solver.frames import euler_from_quaternion
 from solver.gear.place import Place
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact, Lift
 from solver.landing.contact_uncertainty import CONTACT_COMPONENTS
+from solver.landing.excerpt import contact_during
 from solver.landing.simulate import SimulationOptions, simulate_landing
 
 #: Main wheels hop for more than a second; the nose wheel comes down a few tenths before they do.
@@ -55,9 +55,9 @@ def hops(
         )
         at = int(np.searchsorted(history.time, time))
         assert history.gears[2].tyre_deflection[at] > 0.0
-        _, pitch, _ = euler_from_quaternion(history.attitude[at])
+        true = contact_during(aircraft, history, at, contact.lift)
         bounces = [c for c in reconstruct(window, geometry).contacts if abs(c.time - time) < 0.3]
-        found += [(time, float(pitch), float(history.rate[at, 1]), c) for c in bounces]
+        found += [(time, true.pitch, true.pitch_rate, c) for c in bounces]
     return found
 
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from solver.frames import body_structural, euler_from_quaternion, rotation_matrix
+from solver.frames import body_structural, rotation_matrix
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact, Lift, LiftModel
+from solver.landing.excerpt import contact_during
 from solver.landing.history import LandingHistory
 from solver.landing.records import GRAVITY
 from solver.landing.simulate import SimulationOptions, simulate_landing
@@ -39,20 +40,7 @@ def touch(whole: LandingHistory) -> int:
 
 @pytest.fixture(scope="module")
 def second(aircraft: LandingAircraft, whole: LandingHistory, touch: int) -> Contact:
-    """State there; the load of the nose wheel is part of the lift, as an accelerometer shows it."""
-    turn = rotation_matrix(whole.attitude[touch])
-    roll, pitch, yaw = (float(angle) for angle in euler_from_quaternion(whole.attitude[touch]))
-    arm = body_structural(aircraft.total_centre_of_gravity - aircraft.centre_of_gravity)
-    ahead, _, down = turn @ (whole.velocity[touch] + np.cross(whole.rate[touch], arm))
-    up = -(turn @ whole.air_wrench[touch, :3])[2] - whole.gears[2].ground_force[touch, 2]
-    p, q, r = (float(rate) for rate in whole.rate[touch])
-    time = float(whole.time[touch])
-    fraction = float(up / (aircraft.total_mass * GRAVITY))
-    return Contact(
-        float(down), float(ahead), pitch, roll, yaw, pitch_rate=q, roll_rate=p, yaw_rate=r,
-        lift=replace(FIRST.lift.seen_from(time), fraction=fraction), time=time,
-        nose_wheel_down=True,
-    )  # fmt: skip
+    return contact_during(aircraft, whole, touch, FIRST.lift)
 
 
 def main_loads(history: LandingHistory, first: int = 0) -> list[float]:

@@ -6,11 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from solver.frames import body_structural, euler_from_quaternion, rotation_matrix
 from solver.landing.aircraft import LandingAircraft
 from solver.landing.contact import Contact, Lift
+from solver.landing.excerpt import contact_during
 from solver.landing.history import LandingHistory
-from solver.landing.records import GRAVITY
 from solver.landing.sequence import Passage, passage, simulate_contacts, until_next
 from solver.landing.simulate import SimulationOptions, simulate_landing
 from tests.solver.landing.business_jet import business_jet
@@ -38,18 +37,7 @@ def touch(whole: LandingHistory) -> int:
 
 @pytest.fixture(scope="module")
 def second(aircraft: LandingAircraft, whole: LandingHistory, touch: int) -> Contact:
-    """State of the whole aircraft's centre of gravity there, and the lift it has left."""
-    turn = rotation_matrix(whole.attitude[touch])
-    roll, pitch, yaw = (float(angle) for angle in euler_from_quaternion(whole.attitude[touch]))
-    arm = body_structural(aircraft.total_centre_of_gravity - aircraft.centre_of_gravity)
-    ahead, _, down = turn @ (whole.velocity[touch] + np.cross(whole.rate[touch], arm))
-    lift = -(turn @ whole.air_wrench[touch, :3])[2] / (aircraft.total_mass * GRAVITY)
-    p, q, r = (float(rate) for rate in whole.rate[touch])
-    time = float(whole.time[touch])
-    return Contact(
-        float(down), float(ahead), pitch, roll, yaw, pitch_rate=q, roll_rate=p, yaw_rate=r,
-        lift=replace(FIRST.lift.seen_from(time), fraction=float(lift)), time=time,
-    )  # fmt: skip
+    return contact_during(aircraft, whole, touch, FIRST.lift)
 
 
 def test_the_parts_have_the_loads_of_the_whole(
