@@ -1,6 +1,7 @@
 """From a recorder window to the touchdown record that it amounts to."""
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -157,18 +158,23 @@ def _record(
     places = {wheel.gear: wheel.place for wheel in geometry.wheels}
     landed = [update.found for update in responses.updates]
     # A window that cannot tell is a landing all the same: one contact of which nothing is known.
-    course = _lift_course_deviations(responses)
     record["contacts"] = [
-        _contact(update, _peaks_until(update.found, landed, found.contacts), window, places, course)
-        for update in responses.updates[:_MOST_CONTACTS]
+        _contact(
+            update,
+            _peaks_until(update.found, landed, found.contacts),
+            window,
+            places,
+            _lift_course_deviations(responses.updates[: number + 1]),
+        )
+        for number, update in enumerate(responses.updates[:_MOST_CONTACTS])
     ] or [{}]
     return record
 
 
-def _lift_course_deviations(responses: Assimilation) -> dict[str, float]:
-    """Of what the first contact's response tells of the lift in all of them; empty: nothing."""
-    corrected = [update for update in responses.updates if update.is_corrected]
-    return corrected[0].deviations if corrected else {}
+def _lift_course_deviations(updates: Sequence[ContactUpdate]) -> dict[str, float]:
+    """Of what the responses up to a contact tell of the course of the lift; empty: nothing."""
+    corrected = [update for update in updates if update.is_corrected]
+    return corrected[-1].deviations if corrected else {}
 
 
 def _peaks_until(

@@ -69,7 +69,7 @@ _LEAST_CARRIED = 0.04
 #: After so long the shock of a contact has passed through struts and filter [s].
 _SHAKEN = 0.25
 
-#: Without samples of the hop, and least of what is left open [lift over weight].
+#: Lift over weight where no sample shows the hop.
 _UNKNOWN_LIFT = Estimate(0.7, 0.2)
 
 #: Slope of a runway, which levels show and landings do not know of [rad].

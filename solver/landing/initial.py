@@ -38,6 +38,9 @@ RANGES = {
 #: Height at which the hanging gears are brought to rest, clear of the ground [m].
 _CLEAR = 100.0
 
+#: Acceleration of a gear that is at rest [m/s2, rad/s2].
+_REST = 1e-7
+
 
 def check_contact(contact: Contact) -> None:
     """Refuse a contact that no landing can have.
@@ -149,7 +152,7 @@ def _bring_to_rest(state: Array, gears: Records, evaluation: Evaluation) -> None
     unknowns = np.array(free)
     for _ in range(20):
         residual = evaluation(state)[0][unknowns + 1]
-        if np.max(np.abs(residual)) < 1e-8:
+        if np.max(np.abs(residual)) < _REST:
             return
         slope = np.empty((len(unknowns), len(unknowns)))
         for column, unknown in enumerate(unknowns):
