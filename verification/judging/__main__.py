@@ -40,6 +40,9 @@ from verification.run import ROOT
 #: Landings of the complete and of the quick form.
 COMPLETE, QUICK = 160, 10
 
+#: Of the tables where no terminal says how wide it is.
+_WIDTH = 240
+
 PAGE, FIGURES = ROOT / "docs" / "judging.md", ROOT / "docs" / "figures" / "judging"
 
 
@@ -61,7 +64,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if landings < 1:
         parser.error(f"--landings must be 1 or more, got {landings}")
 
-    console = Console()
+    console = Console(width=None if sys.stdout.isatty() else _WIDTH)
     cache = ROOT / "var" / "cache"
     scale, cases = _cases(options.folder, cache)
     fleet = Fleet(landings, options.seed, options.folder, cache, options.processes)
