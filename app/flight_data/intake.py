@@ -1,7 +1,6 @@
 """From a recorder window to the touchdown record that it amounts to."""
 
 import hashlib
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -159,22 +158,10 @@ def _record(
     landed = [update.found for update in responses.updates]
     # A window that cannot tell is a landing all the same: one contact of which nothing is known.
     record["contacts"] = [
-        _contact(
-            update,
-            _peaks_until(update.found, landed, found.contacts),
-            window,
-            places,
-            _lift_course_deviations(responses.updates[: number + 1]),
-        )
-        for number, update in enumerate(responses.updates[:_MOST_CONTACTS])
+        _contact(update, _peaks_until(update.found, landed, found.contacts), window, places)
+        for update in responses.updates[:_MOST_CONTACTS]
     ] or [{}]
     return record
-
-
-def _lift_course_deviations(updates: Sequence[ContactUpdate]) -> dict[str, float]:
-    """Of what the responses up to a contact tell of the course of the lift; empty: nothing."""
-    corrected = [update for update in updates if update.is_corrected]
-    return corrected[-1].deviations if corrected else {}
 
 
 def _peaks_until(
@@ -192,7 +179,6 @@ def _contact(
     peaks_until: float,
     window: Window,
     places: dict[str, Place],
-    course: dict[str, float],
 ) -> dict[str, Any]:
     found, contact = update.found, update.contact
     sds = np.sqrt(np.diag(update.uncertainty.matrix))
@@ -213,15 +199,15 @@ def _contact(
         "model": contact.lift.model.value,
         "fraction": _number(contact.lift.fraction, sd["lift_fraction"], "1"),
     }
-    if course:
-        lift, scatter = contact.lift, course
-        given["lift"] |= {
-            "decay_start": _number(
-                lift.decay_start, lift.decay_start * scatter["decay_start"], "s"
-            ),
-            "decay_time": _number(lift.decay_time, lift.decay_time * scatter["decay_time"], "s"),
-            "residual_fraction": _number(lift.residual_fraction, scatter["residual_lift"], "1"),
-        }
+    lift = contact.lift
+    start_sd, time_deviation, residual_sd = update.uncertainty.lift_course
+    for name, value, deviation, unit in (
+        ("decay_start", lift.decay_start, start_sd, "s"),
+        ("decay_time", lift.decay_time, time_deviation and lift.decay_time * time_deviation, "s"),
+        ("residual_fraction", lift.residual_fraction, residual_sd, "1"),
+    ):
+        if deviation is not None:
+            given["lift"][name] = _number(value, deviation, unit)
     for name, parameter, size in (
         ("nz_peak", Parameter.NORMAL_ACCELERATION, np.positive),
         ("ny_peak", Parameter.LATERAL_ACCELERATION, np.abs),

@@ -19,10 +19,7 @@ def from_json(stored: dict[str, Any]) -> TouchdownRecord:
     )
     # Landings stored by earlier versions carry no recorded peaks.
     recorded = tuple(_recorded(contact) for contact in stored.get("recorded", ()))
-    uncertainties = tuple(
-        ContactUncertainty(tuple(tuple(row) for row in each["covariance"]))
-        for each in stored.get("uncertainties", ())
-    )
+    uncertainties = tuple(_uncertainty(each) for each in stored.get("uncertainties", ()))
     fields = {
         "contacts": contacts,
         "missing": tuple(stored["missing"]),
@@ -31,6 +28,12 @@ def from_json(stored: dict[str, Any]) -> TouchdownRecord:
         "unexplained": tuple(stored.get("unexplained", ())),
     }
     return TouchdownRecord(**{**stored, **fields})
+
+
+def _uncertainty(stored: dict[str, Any]) -> ContactUncertainty:
+    # Landings stored by earlier versions say nothing of the lift's course.
+    found = {name: tuple(stored[name]) for name in ("lift_course",) if name in stored}
+    return ContactUncertainty(tuple(tuple(row) for row in stored["covariance"]), **found)
 
 
 def _lift(stored: dict[str, Any]) -> Lift:

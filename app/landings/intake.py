@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -284,7 +284,7 @@ def contact_uncertainty(given: ContactIn) -> ContactUncertainty:
 
     lift = given.lift or LiftIn(fraction=given.lift_fraction)
     trimmed = lift.normal_acceleration if lift.model == "trimmed" else None
-    return ContactUncertainty.independent(
+    state = ContactUncertainty.independent(
         sink_rate=deviation(given.sink_rate, SinkRate),
         pitch=deviation(given.pitch, Pitch),
         roll=deviation(given.roll, Roll),
@@ -296,6 +296,19 @@ def contact_uncertainty(given: ContactIn) -> ContactUncertainty:
         # In g and of the weight alike.
         lift_fraction=deviation(trimmed or lift.fraction, LiftFraction),
     )
+    return replace(state, lift_course=_lift_course(lift))
+
+
+def _lift_course(lift: LiftIn) -> tuple[float | None, float | None, float | None]:
+    """Deviations of the lift's course where the record states them."""
+
+    def stated(measured: Measured | None) -> float | None:
+        return None if measured is None or measured.sd is None else measured.sd_si
+
+    time, relative = lift.decay_time, stated(lift.decay_time)
+    if relative is not None and time is not None and time.si > 0.0:
+        relative /= time.si
+    return stated(lift.decay_start), relative, stated(lift.residual_fraction)
 
 
 def _out_of_range(path: str, measured: Measured, low: float, high: float, unit: str) -> FieldError:

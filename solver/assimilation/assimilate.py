@@ -159,6 +159,8 @@ def assimilate(
         answer, why = _answer(
             window, reconstruction, update.found, believed, min(SPAN, until), model_error
         )
+        if answer is not None:
+            answer = _with_lift_course(answer, update.prior_uncertainty)
         if answer is not None and not answer.misfit.is_explained:
             why = "the stated uncertainties cannot explain the recorded response"
         updates.append(replace(update, corrected=answer, unchanged_because=why))
@@ -177,7 +179,25 @@ def _with_lift_of(before: ContactUpdate, later: ContactUpdate) -> ContactUpdate:
     """Later contact with the course of the lift that the response to the one before tells."""
     course = before.contact.lift.seen_from(later.prior.time - before.prior.time)
     lift = replace(course, fraction=later.prior.lift.fraction)
-    return replace(later, prior=replace(later.prior, lift=lift))
+    known = before.uncertainty.lift_course
+    return replace(
+        later,
+        prior=replace(later.prior, lift=lift),
+        prior_uncertainty=replace(later.prior_uncertainty, lift_course=known),
+    )
+
+
+def _with_lift_course(answer: CorrectedContact, prior: ContactUncertainty) -> CorrectedContact:
+    """Corrected contact that says how well the course of the lift is known by now."""
+    sd = {parameter.name: parameter.posterior_sd for parameter in answer.parameters}
+    start = answer.contact.lift.decay_start
+    course = (
+        # When the decay began before the contact, its response does not say.
+        start * sd["decay_start"] if start > 0.0 else prior.lift_course[0],
+        sd["decay_time"],
+        sd["residual_lift"],
+    )
+    return replace(answer, uncertainty=replace(answer.uncertainty, lift_course=course))
 
 
 def uncorrected(reconstruction: Reconstruction, why: str) -> Assimilation:

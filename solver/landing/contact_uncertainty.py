@@ -28,6 +28,9 @@ class ContactUncertainty:
     """
 
     covariance: tuple[tuple[float, ...], ...]  #: (9, 9) in the order of `CONTACT_COMPONENTS`, SI
+    #: Standard deviations of the lift's decay start [s], decay time (relative) and residual
+    #: fraction; None: as much as landings scatter.
+    lift_course: tuple[float | None, float | None, float | None] = (None, None, None)
 
     @classmethod
     def from_matrix(cls, covariance: Array) -> "ContactUncertainty":

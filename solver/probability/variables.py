@@ -83,7 +83,15 @@ class LandingVariables:
         definition = airframe.definition
         self._contacts = record.contacts
         self._decay_starts = _decay_starts(record.contacts)
-        self._scatter = definition.scatter
+        self._scatter = scatter = definition.scatter
+        usual = (scatter.lift_decay_start, scatter.lift_decay_time, scatter.residual_lift_fraction)
+        self._lift_course = [
+            tuple(
+                general if known is None else known
+                for known, general in zip(uncertainty.lift_course, usual, strict=True)
+            )
+            for uncertainty in record.uncertainties
+        ]
         self._gears = len(definition.gears)
         self._zones = len(definition.zones)
         self._roots = [_root(uncertainty.matrix) for uncertainty in record.uncertainties]
@@ -138,8 +146,7 @@ class LandingVariables:
         slopes = np.zeros(self.count)
         slopes[self._places[f"contact {number}"]] = self._roots[number].T @ sensitivity.contact
         slopes[self._places["friction"]] = sensitivity.friction * scatter.tyre_friction
-        lift = (scatter.lift_decay_start, scatter.lift_decay_time, scatter.residual_lift_fraction)
-        slopes[self._places["lift"]] = sensitivity.lift_course * lift
+        slopes[self._places["lift"]] = sensitivity.lift_course * self._lift_course[number]
         gear = (scatter.gas_pressure, scatter.strut_damping, scatter.tyre_stiffness)
         slopes[self._places["gears"]] = np.tile(sensitivity.gear * gear, self._gears)
         slopes[self._places["structural_damping"]] = (
@@ -160,13 +167,14 @@ class LandingVariables:
         return replace(nominal, **state, lift=self._lift(number, change["lift_fraction"], lift))
 
     def _lift(self, number: int, change: float, normals: Array) -> Lift:
-        nominal, scatter = self._contacts[number].lift, self._scatter
-        start = self._decay_starts[number] + scatter.lift_decay_start * float(normals[0])
-        residual = nominal.residual_fraction + scatter.residual_lift_fraction * float(normals[2])
+        nominal = self._contacts[number].lift
+        start_sd, time_deviation, residual_sd = self._lift_course[number]
+        start = self._decay_starts[number] + start_sd * float(normals[0])
+        residual = nominal.residual_fraction + residual_sd * float(normals[2])
         lift = replace(
             nominal,
             decay_start=max(0.0, start),
-            decay_time=nominal.decay_time * float(_factor(normals[1], scatter.lift_decay_time)),
+            decay_time=nominal.decay_time * float(_factor(normals[1], time_deviation)),
             residual_fraction=float(np.clip(residual, *_RESIDUAL_RANGE)),
         )
         recorded = nominal.recorded_normal_acceleration

@@ -106,6 +106,9 @@ class TestPost:
         stored = service.get(answer["links"]["landing"]).json()["inputs"]
         (uncertainty, *_) = stored["uncertainties"]
         assert uncertainty["covariance"][0][0] == pytest.approx(sink["posterior_sd"] ** 2)
+        # What is known of the lift's course goes along: it is not drawn anew.
+        time = next(each for each in response["parameters"] if each["name"] == "decay_time")
+        assert uncertainty["lift_course"][1] == pytest.approx(time["posterior_sd"])
 
     def test_a_response_that_cannot_be_explained_is_undetermined(
         self, service: Service, landing: SyntheticLanding

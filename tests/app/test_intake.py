@@ -3,7 +3,7 @@
 import json
 import math
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 import numpy as np
 import pytest
@@ -227,6 +227,25 @@ class TestUncertainty:
         taken = take_in(parse_record(record(contacts=[contact(), unknown, contact(3.0)])), mini)
         assert len(taken.record.contacts) == len(taken.record.uncertainties) == 2
 
-    def test_stored_and_read_again(self, mini: AircraftDefinition) -> None:
-        taken = take_in(parse_record(record()), mini).record
+    def test_the_course_of_the_lift_is_as_uncertain_as_stated(
+        self, mini: AircraftDefinition
+    ) -> None:
+        lift = {
+            "decay_start": {"value": 0.6, "unit": "s", "sd": 0.05},
+            "decay_time": {"value": 800, "unit": "ms", "sd": 80},
+            "residual_fraction": {"value": 0.4, "unit": "1"},
+        }
+        taken = take_in(parse_record(record(contacts=[contact(lift=lift)])), mini).record
+        assert taken.uncertainties[0].lift_course == (
+            pytest.approx(0.05),
+            pytest.approx(0.1),
+            None,
+        )
+
+    @pytest.mark.parametrize("lift", [None, {"decay_start": {"value": 0.6, "unit": "s", "sd": 0}}])
+    def test_stored_and_read_again(
+        self, mini: AircraftDefinition, lift: dict[str, Any] | None
+    ) -> None:
+        given = contact() if lift is None else contact(lift=lift)
+        taken = take_in(parse_record(record(contacts=[given])), mini).record
         assert inputs.from_json(json.loads(json.dumps(inputs.to_json(taken)))) == taken

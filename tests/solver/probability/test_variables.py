@@ -93,6 +93,23 @@ def test_the_spoilers_come_out_once_for_all_contacts(mini: AssessmentModel) -> N
         assert starts[:, 0].std() == pytest.approx(scatter.lift_decay_start, rel=0.1)
 
 
+def test_a_course_of_the_lift_that_is_known_better_scatters_less(mini: AssessmentModel) -> None:
+    """What the record does not state scatters as the definition says; lognormal, median kept."""
+    first = landing(mini, 2.0)
+    lift = Lift(fraction=0.9, decay_start=0.6, decay_time=0.8, residual_fraction=0.4)
+    known = replace(first.uncertainties[0], lift_course=(0.02, 0.05, None))
+    record = replace(
+        first, contacts=(replace(first.contacts[0], lift=lift),), uncertainties=(known,)
+    )
+    found = [sample.contacts[0].lift for sample in samples_of(mini, record, 64)]
+    assert np.std([each.decay_start for each in found]) == pytest.approx(0.02, rel=0.05)
+    time = np.array([each.decay_time for each in found])
+    assert np.median(time) == pytest.approx(0.8, rel=0.01)
+    assert np.std(time) == pytest.approx(0.05 * 0.8, rel=0.05)
+    usual = mini.airframe.definition.scatter.residual_lift_fraction
+    assert np.std([each.residual_fraction for each in found]) == pytest.approx(usual, rel=0.05)
+
+
 def test_nothing_lands_upwards_or_flies_away(mini: AssessmentModel) -> None:
     record = landing(mini, 0.3, deviations={"sink_rate": 0.5, "lift_fraction": 0.2})
     found = states(samples_of(mini, record))
