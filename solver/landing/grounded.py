@@ -56,8 +56,9 @@ def stand_on_grounded(
         return sum(_close(state, index, gears[index], evaluation) for index in down)
 
     if carried(0.0) > most:
-        deepest = float(evaluation(hanging)[2]["deflection"][list(down)].max())
-        carried(brentq(lambda higher: carried(higher) - most, 0.0, deepest, xtol=_SAME))
+        # A little above the depth of the deepest, where rounding leaves nothing on the ground.
+        clear = float(evaluation(hanging)[2]["deflection"][list(down)].max()) + 2.0 * _SAME
+        carried(brentq(lambda higher: carried(higher) - most, 0.0, clear, xtol=_SAME))
 
 
 def _close(state: Array, index: int, gear: Record, evaluation: Evaluation) -> float:

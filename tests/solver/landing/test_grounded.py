@@ -117,6 +117,8 @@ def test_a_nose_wheel_in_the_air_stays_there(aircraft: LandingAircraft) -> None:
     [
         (Lift(fraction=0.5, residual_fraction=0.3), 0.2),  # lift does not rise to what it tends to
         (Lift(LiftModel.HELD, fraction=0.2), 0.2),  # nor does it pull the aircraft down
+        (Lift(fraction=0.3, residual_fraction=0.3), 0.0),
+        (Lift(fraction=0.1, residual_fraction=0.3), 0.0),
     ],
 )
 def test_an_attitude_that_the_nose_wheel_cannot_bear_leaves_the_mains_in_the_air(
@@ -126,5 +128,5 @@ def test_an_attitude_that_the_nose_wheel_cannot_bear_leaves_the_mains_in_the_air
     history = simulate_landing(aircraft, contact, SHORT)
     carried = -history.gears[2].ground_force[0, 2] / (aircraft.total_mass * GRAVITY)
     # Its leg swings back a little under the load, and is then less deep.
-    assert carried == pytest.approx(most, rel=0.05)
+    assert carried == pytest.approx(most, rel=0.05, abs=1e-4)
     assert not history.gears[0].tyre_deflection[0] > 0.0
