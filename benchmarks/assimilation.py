@@ -99,7 +99,7 @@ class Flown:
         return before, after
 
 
-def fly(number: int, seed: int, defect: Defect) -> list[Flown]:
+def fly(number: int, seed: int, defect: Defect, least_sink_rate: float = 0.0) -> list[Flown]:
     """Fly one landing: its first contact, then its bounces; nothing if the window cannot tell.
 
     Left out are contacts of which nothing could be compared, and bounces that were none.
@@ -109,6 +109,8 @@ def fly(number: int, seed: int, defect: Defect) -> list[Flown]:
         AIRCRAFT, GEOMETRY, packaged_frame(frame), seed + number, defects=defect.changes
     )
     landing = scattered.landing
+    if landing.contact.sink_rate < least_sink_rate:
+        return []
     window = amplified(landing.window, defect.gain)
     found = reconstruct(window, GEOMETRY)
     if not found.contacts:
@@ -279,10 +281,12 @@ def show(title: str, rows: list[dict[str, float | str]]) -> None:
         print("".join(f"{cells[key]:>{width}s}" for key, width in widths.items()))
 
 
-def show_good(count: int, seed: int, figure: Path | None) -> dict[str, object]:
+def show_good(
+    count: int, seed: int, least_sink_rate: float, figure: Path | None
+) -> dict[str, object]:
     """Fly landings without a defect and print what became of them."""
     good = Defect("none")
-    landings = [each for k in range(count) if (each := fly(k, seed, good))]
+    landings = [each for k in range(count) if (each := fly(k, seed, good, least_sink_rate))]
     flown = [first for first, *_ in landings]
     bounces = [bounce for _, *later in landings for bounce in later]
     document: dict[str, object] = {
@@ -310,12 +314,15 @@ def main() -> None:
     parser.add_argument("--landings", type=int, default=200)
     parser.add_argument("--defects", type=int, default=20, help="landings for each defect")
     parser.add_argument("--first-seed", type=int, default=60_000)
+    parser.add_argument(
+        "--least-sink-rate", type=float, default=0.0, help="leave softer landings out [m/s]"
+    )
     parser.add_argument("--json", type=Path, help="write the figures here")
     parser.add_argument("--figure", type=Path, help="draw peaks and misfits (SVG or PNG)")
     given = parser.parse_args()
     document: dict[str, object] = {}
     if given.landings:
-        document |= show_good(given.landings, given.first_seed, given.figure)
+        document |= show_good(given.landings, given.first_seed, given.least_sink_rate, given.figure)
     if given.defects:
         rows = [defect_row(defect, given.defects, given.first_seed + 5_000) for defect in DEFECTS]
         show(f"defects; firm means above {FIRM} m/s", rows)
