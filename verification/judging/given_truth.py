@@ -16,7 +16,7 @@ from verification.judging.true_parts import Belief, Part, with_truth
 from verification.judging.use_of_limits import UseOfLimits
 
 #: True use of a limit of the landings that count: far from the limit any method tells them.
-NEAR = (0.7, 1.4)
+NEAR = (0.7, 1.5)
 
 #: Use of a limit below which an answer need not be exact: it is far from calling a landing hard.
 _LEAST = 0.5
