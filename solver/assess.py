@@ -138,7 +138,7 @@ def assess_landing(
     loading = airframe.loading_for(
         record.mass, record.centre_of_gravity, record.fuel, record.payload
     )
-    aircraft = airframe.landing_aircraft(loading.factors)
+    aircraft = airframe.landing_aircraft(loading.factors, record.runway_friction)
     mass = aircraft.total_mass
 
     clock = _Clock()
@@ -299,5 +299,7 @@ def _limits_of(record: TouchdownRecord, histories: list[LandingHistory]) -> list
             # What has not touched by the next contact is looked for there.
             if gear.name not in touched and math.isinf(until_next(record.contacts, number - 1))
         ]
+    if record.runway_friction is not None:
+        notes.append(f"runway friction {record.runway_friction:.2f}, as recorded")
     notes.append("not assessed: landing-gear internals, fatigue, pre-existing damage, repairs")
     return notes

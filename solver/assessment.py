@@ -45,6 +45,10 @@ class TouchdownRecord:
     centre_of_gravity_deviation: float | None = None  #: standard deviation of the station [m]
     recorded: tuple[RecordedContact, ...] = ()  #: every contact, with unknown state or without
     uncertainties: tuple[ContactUncertainty, ...] = ()  #: of each of `contacts`, or empty: not said
+    #: Largest coefficient of friction of the tyres on the runway, as measured at the time; None: as
+    #: the aircraft's definition has it, and with its scatter.
+    runway_friction: float | None = None
+    runway_friction_deviation: float = 0.0  #: standard deviation of it
     unexplained: tuple[str, ...] = ()  #: recorded responses that no landing as believed can give
 
 

@@ -1,7 +1,7 @@
 """From a recorder window to the touchdown record that it amounts to."""
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -76,9 +76,11 @@ def take_in_window(
         raise InvalidRecordError([fault]) from error
     geometry = definition_geometry(definition, window)
     found = reconstruct(window, geometry)
-    responses, notes = _responses(window, found, geometry, aircraft, cache)
+    responses, notes = _responses(query, window, found, geometry, aircraft, cache)
     content_digest = hashlib.sha256(content).hexdigest()
     identity = f"{content_digest} {query.aircraft} {query.tail} {query.frame}"
+    if query.runway_friction is not None:
+        identity += f" {query.runway_friction:g} {query.runway_friction_sd:g}"
     return WindowIntake(
         window=window,
         found=found,
@@ -90,6 +92,7 @@ def take_in_window(
 
 
 def _responses(
+    query: WindowQuery,
     window: Window,
     found: Reconstruction,
     geometry: Geometry,
@@ -106,6 +109,9 @@ def _responses(
         note = Note("response_not_compared", f"recorded responses are not compared: {error}")
         return uncorrected(found, str(error)), (note,)
     scatter = ServiceScatter.stated(aircraft.definition.scatter)
+    if query.runway_friction is not None:
+        simulated = simulated.on_runway(query.runway_friction)
+        scatter = replace(scatter, tyre_friction=query.runway_friction_sd / query.runway_friction)
     return assimilate(window, found, simulated, geometry, scatter=scatter), ()
 
 
@@ -151,6 +157,9 @@ def _record(
         "aircraft": aircraft,
         "source": source,
     }
+    if query.runway_friction is not None:
+        friction = _number(query.runway_friction, query.runway_friction_sd, "1")
+        record["leg"] = {"runway_friction": friction}
     mass = recorded_mass(window)
     if mass is not None:
         record["mass"] = {"gross_weight": {"value": mass, "unit": "kg", "sd": 0.01 * mass}}

@@ -132,6 +132,8 @@ class _Conversion:
             mass_deviation=self.sd.get("mass.gross_weight"),
             centre_of_gravity_deviation=self.sd.get("mass.cg"),
             recorded=tuple(self.recorded),
+            runway_friction=self._runway_friction(),
+            runway_friction_deviation=self.sd.get("leg.runway_friction", 0.0),
             uncertainties=tuple(self.uncertainties),
         )
         if self.errors:
@@ -148,6 +150,10 @@ class _Conversion:
         self.sd[name] = sd
         if measured.sd is None:
             self.sd_defaulted.append(name)
+
+    def _runway_friction(self) -> float | None:
+        leg = self.record.leg
+        return None if leg is None else self._number("leg.runway_friction", leg.runway_friction)
 
     def _mass(self) -> float | None:
         weight = self.record.mass.gross_weight

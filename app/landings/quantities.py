@@ -250,6 +250,15 @@ class Duration(Measured):
     unit: TimeUnit
 
 
+class RunwayFriction(Measured):
+    """Largest coefficient of friction between tyre and runway; its unit may be left out."""
+
+    dimension = Dimension.FRACTION
+    minimum, maximum = 0.05, 1.2
+    default_sd = 0.05
+    unit: FractionUnit = "1"
+
+
 class LiftFraction(Measured):
     """Lift over weight; a pure number, so its unit may be left out."""
 

@@ -30,6 +30,7 @@ from app.landings.quantities import (
     Pitch,
     RecordedPeak,
     Roll,
+    RunwayFriction,
     SinkRate,
 )
 
@@ -186,7 +187,14 @@ class MassIn(Strict):
 class LegIn(Strict):
     landing_airport: Token | None = None
     runway: Token | None = None
-    surface: Literal["dry", "wet", "contaminated"] | None = None
+    surface: Literal["dry", "wet", "contaminated"] | None = Field(
+        default=None, description="Kept on record; `runway_friction` is what counts."
+    )
+    runway_friction: RunwayFriction | None = Field(
+        default=None,
+        description="As measured at the time of the landing, on the scale of the aircraft's tyres. "
+        "Without it that of the aircraft's definition, with its scatter.",
+    )
     leg_token: Token | None = None
 
 

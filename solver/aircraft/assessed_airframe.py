@@ -54,8 +54,18 @@ class AssessedAirframe:
         """Rigid-body properties of the loaded airframe without the unsprung masses."""
         return self.mass_states.properties(factors)
 
-    def landing_aircraft(self, factors: Array) -> LandingAircraft:
-        """Aircraft for the landing simulation: the loaded airframe as a rigid body, its gears."""
+    def landing_aircraft(
+        self, factors: Array, runway_friction: float | None = None
+    ) -> LandingAircraft:
+        """Aircraft for the landing simulation: the loaded airframe as a rigid body, its gears.
+
+        Parameters
+        ----------
+        factors : (n_groups,) array
+            Fill of tanks and bays.
+        runway_friction : float, optional
+            Largest coefficient of friction; that of the definition's tyres by default.
+        """
         body = self.mass_properties(factors)
         reference, aero = self.definition.reference, self.definition.aerodynamics
         gears, first = [], 0
@@ -64,7 +74,7 @@ class AssessedAirframe:
             # writable, as the compiled landing was compiled for
             gears.append(gear.gear(np.array(self.pin_positions[first:last])))
             first = last
-        return LandingAircraft(
+        aircraft = LandingAircraft(
             mass=body.mass,
             centre_of_gravity=body.centre_of_gravity,
             inertia=body.inertia,
@@ -81,3 +91,4 @@ class AssessedAirframe:
                 air_density=aero.air_density,
             ),
         )
+        return aircraft if runway_friction is None else aircraft.on_runway(runway_friction)

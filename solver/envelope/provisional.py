@@ -52,6 +52,8 @@ def provisional_verdict(envelope: Envelope, record: TouchdownRecord) -> Provisio
     reasons = []
     if record.missing:
         reasons.append("the record lacks " + "; ".join(record.missing))
+    if record.runway_friction is not None:
+        reasons.append("the record states the runway's friction")
     covered = []
     try:
         loading = find_loading(

@@ -1,6 +1,6 @@
 """The aircraft as the landing simulation sees it: a rigid airframe, its gears, its air loads."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -102,6 +102,25 @@ class LandingAircraft:
         names = [gear.name for gear in self.gears]
         if not names or len(set(names)) != len(names):
             raise ModelError(f"gears need distinct names, got {names}")
+
+    def on_runway(self, friction: float) -> Self:
+        """Aircraft on a runway of which the largest coefficient of friction is known.
+
+        What the tyres keep when they slide goes with it.
+        """
+        gears = tuple(
+            replace(
+                gear,
+                tyre=replace(
+                    gear.tyre,
+                    maximum_friction=friction,
+                    minimum_friction=gear.tyre.minimum_friction
+                    * (friction / gear.tyre.maximum_friction),
+                ),
+            )
+            for gear in self.gears
+        )
+        return replace(self, gears=gears)
 
     @property
     def nose_gears(self) -> tuple[int, ...]:

@@ -88,7 +88,10 @@ class LandingSampler:
 
     @cached_property
     def _aircraft(self) -> list[LandingAircraft]:
-        return [self.airframe.landing_aircraft(factors) for factors in self._points.factors]
+        friction = self.nominal.record.runway_friction
+        return [
+            self.airframe.landing_aircraft(factors, friction) for factors in self._points.factors
+        ]
 
     def simulate(
         self,

@@ -92,6 +92,9 @@ class LandingVariables:
             )
             for uncertainty in record.uncertainties
         ]
+        self._friction = scatter.tyre_friction
+        if record.runway_friction is not None:
+            self._friction = record.runway_friction_deviation / record.runway_friction
         self._gears = len(definition.gears)
         self._zones = len(definition.zones)
         self._roots = [_root(uncertainty.matrix) for uncertainty in record.uncertainties]
@@ -130,7 +133,7 @@ class LandingVariables:
             contacts=contacts,
             point=LoadingPoints.point_of(float(part["loading"][0])),
             gears=_factor(part["gears"].reshape(self._gears, 3), deviations),
-            friction=float(_factor(part["friction"][0], scatter.tyre_friction)),
+            friction=float(_factor(part["friction"][0], self._friction)),
             structural_damping=float(
                 _factor(part["structural_damping"][0], scatter.structural_damping)
             ),
@@ -145,7 +148,7 @@ class LandingVariables:
         scatter = self._scatter
         slopes = np.zeros(self.count)
         slopes[self._places[f"contact {number}"]] = self._roots[number].T @ sensitivity.contact
-        slopes[self._places["friction"]] = sensitivity.friction * scatter.tyre_friction
+        slopes[self._places["friction"]] = sensitivity.friction * self._friction
         slopes[self._places["lift"]] = sensitivity.lift_course * self._lift_course[number]
         gear = (scatter.gas_pressure, scatter.strut_damping, scatter.tyre_stiffness)
         slopes[self._places["gears"]] = np.tile(sensitivity.gear * gear, self._gears)

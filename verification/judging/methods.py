@@ -23,7 +23,7 @@ from solver.verdict.rule_findings import apply_rule
 from verification.judging.accidents import largest_utilisation
 from verification.judging.flight import FlownLanding
 from verification.judging.given_truth import is_near_limit, uses_by_knowledge
-from verification.judging.reading import read_window, recorded_mass
+from verification.judging.reading import Reading, read_window, recorded_mass
 from verification.judging.use_of_limits import UseOfLimits
 
 #: Use of a limit below or above which, by truth and by the estimate, the long methods are left out.
@@ -33,6 +33,9 @@ CHECKED = 5
 
 #: Share of the limit where the rule asks for an inspection whatever was recorded.
 _BEYOND_THE_RULE = 9.0
+
+#: Of a measured coefficient of friction.
+FRICTION_SD = 0.03
 
 #: Least span of the difference of radio altitude [s].
 _NEARLY_A_SECOND = 0.95
@@ -86,6 +89,8 @@ class Answers:
     corrected: float | None = None  #: use of a limit by the state after assimilation
     is_unexplained: bool = False  #: the recorded response cannot be explained
     probability: float | None = None  #: that a limit is exceeded, by state and covariance after it
+    probability_on_runway: float | None = None  #: the same where the runway's friction is known
+    is_unexplained_on_runway: bool = False
     #: Near the limit, use of a limit by what is known (`verification.judging.knowledge`).
     knowledge: dict[str, float] = field(default_factory=dict)
     #: Deviation of what the aircraft was like after assimilation over that before, by parameter.
@@ -156,6 +161,7 @@ def answer(
             return answers
         updated = reading.assimilated(model)
         answers = _with_assimilation(model, answers, record, updated)
+        answers = _with_friction(model, answers, reading, flown)
         if is_near_limit(flown.utilisation):
             readings = {}
             for place, recorder in enumerate(recorders):
@@ -188,6 +194,29 @@ def _with_assimilation(
         is_unexplained=bool(updated.unexplained),
         probability=assessment.probability_limit_exceeded,
         learned=_learned(updated),
+    )
+
+
+def _with_friction(
+    model: AssessmentModel, answers: Answers, reading: Reading, flown: FlownLanding
+) -> Answers:
+    """Add what is made of the recording where the runway's friction was measured."""
+    true = flown.aircraft.gears[0].tyre.maximum_friction
+    error = np.random.default_rng([flown.drawn.seed, 1]).standard_normal()
+    measured = max(true + FRICTION_SD * float(error), FRICTION_SD)
+    updated = reading.assimilated(model, (measured, FRICTION_SD))
+    record = replace(
+        reading.record(model),
+        contacts=updated.contacts,
+        uncertainties=updated.uncertainties,
+        runway_friction=measured,
+        runway_friction_deviation=FRICTION_SD,
+    )
+    assessment = assess_landing(model, record)
+    return replace(
+        answers,
+        probability_on_runway=assessment.probability_limit_exceeded,
+        is_unexplained_on_runway=bool(updated.unexplained),
     )
 
 

@@ -1,6 +1,6 @@
 """One recording as an assessment reads it: contacts by the smoother, on the aircraft as defined."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -59,10 +59,19 @@ class Reading:
             ),
         )
 
-    def assimilated(self, model: AssessmentModel) -> Assimilation:
-        """Correct the first contact by its recorded response."""
+    def assimilated(
+        self, model: AssessmentModel, friction: tuple[float, float] | None = None
+    ) -> Assimilation:
+        """Correct the contacts by their recorded responses.
+
+        With ``friction`` the runway's is known: value and standard deviation.
+        """
+        aircraft = self.aircraft
         scatter = ServiceScatter.stated(model.airframe.definition.scatter)
-        return assimilate(self.window, self.found, self.aircraft, self.geometry, scatter=scatter)
+        if friction is not None:
+            aircraft = aircraft.on_runway(friction[0])
+            scatter = replace(scatter, tyre_friction=friction[1] / friction[0])
+        return assimilate(self.window, self.found, aircraft, self.geometry, scatter=scatter)
 
 
 def read_window(model: AssessmentModel, window: Window, installation: Installation) -> Reading:

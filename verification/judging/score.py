@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from solver.aircraft.definition_file import VerdictSection
 from solver.arrays import Array, BoolArray
 from verification.judging.methods import Answers
 from verification.judging.population import FEET_PER_MINUTE
@@ -28,8 +29,11 @@ PILOT_SPREAD = 0.35
 #: 14 CFR 25.473(a)(2), and what the classic rule of the A320 family asks an inspection from.
 SINK_LIMIT = 600.0 * FEET_PER_MINUTE
 
+_DEFAULT = {name: field.default for name, field in VerdictSection.model_fields.items()}
+
 #: Probabilities from which the verdict is INSPECT and HARD by default.
-INSPECT_PROBABILITY, HARD_PROBABILITY = 1.0 / 21.0, 0.5
+INSPECT_PROBABILITY = 1.0 / (1.0 + _DEFAULT["missed_over_needless_cost"])
+HARD_PROBABILITY = _DEFAULT["hard_probability"]
 
 #: A window that carries no verdict is inspected: it scores above everything.
 UNDETERMINED_SCORE = 99.0
@@ -91,8 +95,10 @@ def methods_of(answers: Sequence[Answers], seed: int) -> tuple[Method, ...]:
 
     estimate = column(lambda a: a.estimate)
     corrected = column(corrected_of)
-    probability = column(probability_of)
+    probability = column(lambda a: probability_of(a, a.probability))
     unexplained = np.array([a.is_unexplained for a in answers])
+    on_runway = column(lambda a: probability_of(a, a.probability_on_runway))
+    unexplained_on_runway = np.array([a.is_unexplained_on_runway for a in answers])
     load_factor = column(lambda a: a.load_factor_share)
     over = np.array([a.is_over_load_factor for a in answers])
     held = np.array([a.is_held for a in answers])
@@ -110,6 +116,11 @@ def methods_of(answers: Sequence[Answers], seed: int) -> tuple[Method, ...]:
             "probability, INSPECT or more", probability,
             (probability >= INSPECT_PROBABILITY) | unexplained,
         ),
+        Method("the same, friction measured, HARD", on_runway, on_runway >= HARD_PROBABILITY),
+        Method(
+            "the same, friction measured, INSPECT or more", on_runway,
+            (on_runway >= INSPECT_PROBABILITY) | unexplained_on_runway,
+        ),
     )  # fmt: skip
 
 
@@ -120,11 +131,11 @@ def corrected_of(answers: Answers) -> float | None:
     return answers.corrected if answers.is_complete else answers.estimate
 
 
-def probability_of(answers: Answers) -> float | None:
+def probability_of(answers: Answers, stated: float | None) -> float | None:
     """Stated probability; where it was left out the landing is clearly sound, or clearly hard."""
     if answers.undetermined or answers.estimate is None:
         return None
-    return answers.probability if answers.is_complete else float(answers.estimate > 1.0)
+    return stated if answers.is_complete else float(answers.estimate > 1.0)
 
 
 def truth_of(answers: Sequence[Answers]) -> tuple[BoolArray, Array]:
