@@ -110,6 +110,24 @@ class TestPost:
         time = next(each for each in response["parameters"] if each["name"] == "decay_time")
         assert uncertainty["lift_course"][1] == pytest.approx(time["posterior_sd"])
 
+    def test_a_measured_friction_goes_with_the_record(
+        self, service: Service, landing: SyntheticLanding
+    ) -> None:
+        known = {"runway_friction": "0.6", "runway_friction_sd": "0.03"}
+        answer = post(service, long_form(landing.window), frame=FRAME, **known).json()
+        friction = next(
+            each
+            for each in answer["contacts"][0]["response"]["parameters"]
+            if each["name"] == "tyre_friction"
+        )
+        assert friction["prior_sd"] == pytest.approx(0.05)  # of its logarithm
+        stored = service.get(answer["links"]["landing"]).json()
+        assert stored["record"]["leg"]["runway_friction"]["value"] == 0.6
+        assert stored["inputs"]["runway_friction"] == 0.6
+        assert stored["inputs"]["runway_friction_deviation"] == 0.03
+        # The same file is the same landing, of which this says something else.
+        assert post(service, long_form(landing.window), frame=FRAME).status_code == 409
+
     def test_a_response_that_cannot_be_explained_is_undetermined(
         self, service: Service, landing: SyntheticLanding
     ) -> None:

@@ -227,6 +227,14 @@ class TestUncertainty:
         taken = take_in(parse_record(record(contacts=[contact(), unknown, contact(3.0)])), mini)
         assert len(taken.record.contacts) == len(taken.record.uncertainties) == 2
 
+    def test_the_friction_of_the_runway_reaches_the_solver(self, mini: AircraftDefinition) -> None:
+        known = take_in(parse_record(record(leg={"runway_friction": {"value": 0.45}})), mini)
+        assert known.record.runway_friction == 0.45
+        assert known.record.runway_friction_deviation == 0.05
+        assert "leg.runway_friction" in known.sd_defaulted
+        unknown = take_in(parse_record(record(leg={"surface": "wet"})), mini).record
+        assert unknown.runway_friction is None
+
     def test_the_course_of_the_lift_is_as_uncertain_as_stated(
         self, mini: AircraftDefinition
     ) -> None:

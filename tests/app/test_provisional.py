@@ -90,6 +90,13 @@ class TestPost:
         assert given["verdict"] is None
         assert "main gears do not clearly touch first" in given["reasons"][0]
 
+    def test_another_friction_is_not_covered(self, bare: Service) -> None:
+        install(bare, limit=100.0)
+        slippery = flown(leg={"runway_friction": {"value": 0.4}})
+        given = bare.post(slippery).json()["provisional"]
+        assert given["verdict"] is None
+        assert "runway's friction" in given["reasons"][0]
+
     def test_a_back_fill_has_none(self, bare: Service) -> None:
         install(bare, limit=4.0)
         headers = {**bare.key("alpha", "post"), "content-type": "application/x-ndjson"}

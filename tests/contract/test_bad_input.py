@@ -176,6 +176,13 @@ BAD_RECORDS: list[tuple[str, Any, str, str, str]] = [
     ),
     ("contacts out of order", record(contacts=[contact(seq=2)]), "contacts[0].seq", "2", "1"),
     (
+        "friction of no runway",
+        record(leg={"runway_friction": {"value": 3.0}}),
+        "leg.runway_friction",
+        "3",
+        "0.05 to 1.2",
+    ),
+    (
         "nose wheel down before it touched",
         record(contacts=[contact(nose_wheel_down=True)]),
         "contacts[0].nose_wheel_down",

@@ -139,6 +139,12 @@ def test_factors_have_the_definitions_scatter(mini: AssessmentModel) -> None:
     assert np.abs(np.corrcoef(pressure.T) - np.eye(pressure.shape[1])).max() < 0.15
 
 
+def test_friction_that_was_measured_scatters_by_what_was_measured(mini: AssessmentModel) -> None:
+    record = replace(landing(mini, 2.0), runway_friction=0.6, runway_friction_deviation=0.03)
+    friction = np.array([sample.friction for sample in samples_of(mini, record, 32)])
+    assert np.std(friction) == pytest.approx(0.03 / 0.6, rel=0.1)
+
+
 def test_a_sample_changes_its_gears_and_nothing_else(mini: AssessmentModel) -> None:
     sample = samples_of(mini, landing(mini, 2.0))[0]
     nominal = mini.airframe.landing_aircraft(mini.airframe.loading_for().factors)

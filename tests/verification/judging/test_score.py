@@ -37,6 +37,7 @@ PERFECT = Answers(
     sink_corrected=1.0,
     corrected=0.5,
     probability=0.0,
+    probability_on_runway=0.0,
 )
 
 
@@ -57,6 +58,7 @@ def landings(count: int = 40) -> Iterator[Answers]:
             is_held=is_hard,
             corrected=used,
             probability=float(is_hard),
+            probability_on_runway=float(is_hard),
             knowledge={ALL: used, SMOOTHED_8: used},
         )
 
