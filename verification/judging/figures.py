@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from solver.arrays import Array
 from verification.chapter import Plot
 from verification.judging.score import Calibration, FleetScore
 from verification.plots import Line, Panel, line_plot
@@ -16,6 +17,7 @@ _DRAWN = {
     "estimate": "estimate",
     "estimate after assimilation": "assimilated",
     "probability, HARD": "probability",
+    "the same, friction measured, HARD": "friction measured",
 }
 
 #: What is hoped for: wrong calls among the alarms, missed ones among the hard.
@@ -36,10 +38,10 @@ def figures_of(score: FleetScore) -> tuple[Plot, ...]:
                 "sound landings with an alarm",
                 "hard landings with an alarm",
                 [
-                    Line(
+                    _line(
+                        each.name,
                         np.maximum(each.curve.alarms_of_sound, _LEAST),
                         each.curve.alarms_of_hard,
-                        _DRAWN[each.name],
                     )
                     for each in drawn
                 ],
@@ -59,11 +61,7 @@ def figures_of(score: FleetScore) -> tuple[Plot, ...]:
                 "hard landings missed",
                 "wrong calls among the alarms",
                 [
-                    Line(
-                        1.0 - each.curve.alarms_of_hard,
-                        each.curve.wrong_calls,
-                        _DRAWN[each.name],
-                    )
+                    _line(each.name, 1.0 - each.curve.alarms_of_hard, each.curve.wrong_calls)
                     for each in drawn
                 ],
                 x_limits=(0.0, 1.0),
@@ -91,6 +89,14 @@ def figures_of(score: FleetScore) -> tuple[Plot, ...]:
         height=3.0,
     )
     return curves, calls, reliability
+
+
+def _line(name: str, along: Array, up: Array) -> Line:
+    """Curve of a method; what is known besides its recording is dashed."""
+    place = list(_DRAWN).index(name)
+    if place < len(_DRAWN) - 1:
+        return Line(along, up, _DRAWN[name], colour=place)
+    return Line(along, up, _DRAWN[name], "dashed", colour=place - 1)
 
 
 def _reliability_panel(calibration: Calibration, title: str) -> Panel:
