@@ -14,6 +14,7 @@ from app.cli.input_file import refuse
 from app.cli.progress import progress_bars
 from app.config import get_settings
 from app.flight_data.intake import recorded_mass
+from app.landings.quantities import RunwayFriction
 from solver.assimilation.assimilate import Assimilation, assimilate, uncorrected
 from solver.assimilation.parameters import ServiceScatter
 from solver.errors import FlightDataError, RecordError, SolverError
@@ -52,6 +53,12 @@ def flight_data(
     aircraft: Annotated[
         str | None, typer.Option(help="Aircraft folder's name, for heights and gears.")
     ] = None,
+    runway_friction: Annotated[
+        float | None, typer.Option(min=0.05, max=1.2, help="Largest coefficient, as measured.")
+    ] = None,
+    runway_friction_sd: Annotated[
+        float, typer.Option(min=0.0, max=0.5, help="Its standard deviation.")
+    ] = RunwayFriction.default_sd,
 ) -> None:
     """Show what a recorder window holds: channels, contacts, states, or why it cannot tell."""
     try:
@@ -61,6 +68,12 @@ def flight_data(
         refuse(f"{file}: {error}", error)
     except (SolverError, OSError) as error:
         refuse(str(error), error)
+    if simulated is not None and runway_friction is not None:
+        real, scatter = simulated
+        simulated = (
+            real.on_runway(runway_friction),
+            scatter.on_runway(runway_friction, runway_friction_sd),
+        )
     geometry = point_geometry() if simulated is None else aircraft_geometry(simulated[0])
     found = reconstruct(window, geometry)
     responses = (

@@ -1,7 +1,7 @@
 """From a recorder window to the touchdown record that it amounts to."""
 
 import hashlib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -111,7 +111,7 @@ def _responses(
     scatter = ServiceScatter.stated(aircraft.definition.scatter)
     if query.runway_friction is not None:
         simulated = simulated.on_runway(query.runway_friction)
-        scatter = replace(scatter, tyre_friction=query.runway_friction_sd / query.runway_friction)
+        scatter = scatter.on_runway(query.runway_friction, query.runway_friction_sd)
     return assimilate(window, found, simulated, geometry, scatter=scatter), ()
 
 

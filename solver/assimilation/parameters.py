@@ -40,6 +40,10 @@ class ServiceScatter:
     decay_time: float = 0.25
     residual_lift: float = 0.08  #: lift over weight, a standard deviation of its own
 
+    def on_runway(self, friction: float, deviation: float) -> "ServiceScatter":
+        """Scatter where the coefficient of friction was measured with a standard deviation."""
+        return replace(self, tyre_friction=deviation / friction)
+
     @classmethod
     def stated(cls, scatter: Scatter) -> "ServiceScatter":
         """Scatter that an aircraft's definition states, struts alike in their oil."""

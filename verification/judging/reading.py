@@ -1,6 +1,6 @@
 """One recording as an assessment reads it: contacts by the smoother, on the aircraft as defined."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -70,7 +70,7 @@ class Reading:
         scatter = ServiceScatter.stated(model.airframe.definition.scatter)
         if friction is not None:
             aircraft = aircraft.on_runway(friction[0])
-            scatter = replace(scatter, tyre_friction=friction[1] / friction[0])
+            scatter = scatter.on_runway(*friction)
         return assimilate(self.window, self.found, aircraft, self.geometry, scatter=scatter)
 
 

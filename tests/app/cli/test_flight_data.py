@@ -122,3 +122,17 @@ def test_the_response_is_shown_before_and_after(mini_window: list[str]) -> None:
     assert result.exit_code == 0, result.output
     assert "response to contact 1 (first): normal acceleration peaked at" in result.stdout
     assert "Before and after the response" in result.stdout
+
+
+def test_a_measured_friction_narrows_what_is_believed_of_it(mini_window: list[str]) -> None:
+    known = ["--runway-friction", "0.6", "--runway-friction-sd", "0.03", "--json"]
+    prior = []
+    for arguments in ([*mini_window, "--json"], [*mini_window, *known]):
+        result = runner.invoke(command, arguments)
+        assert result.exit_code == 0, result.output
+        (response, *_) = json.loads(result.stdout)["responses"]
+        (friction,) = [
+            each for each in response["compared"]["parameters"] if each["name"] == "tyre_friction"
+        ]
+        prior.append(friction["prior_sd"])
+    assert prior == [pytest.approx(0.15), pytest.approx(0.05)]
