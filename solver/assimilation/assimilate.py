@@ -161,8 +161,8 @@ def assimilate(
         )
         if answer is not None:
             answer = _with_lift_course(answer, update.prior_uncertainty)
-        if answer is not None and not answer.misfit.is_explained:
-            why = "the stated uncertainties cannot explain the recorded response"
+            if not answer.misfit.is_explained:
+                why = "the stated uncertainties cannot explain the recorded response"
         updates.append(replace(update, corrected=answer, unchanged_because=why))
     return Assimilation(tuple(updates))
 

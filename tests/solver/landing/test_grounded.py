@@ -12,17 +12,11 @@ from solver.landing.excerpt import contact_during
 from solver.landing.history import LandingHistory
 from solver.landing.records import GRAVITY
 from solver.landing.simulate import SimulationOptions, simulate_landing
-from tests.solver.landing.business_jet import business_jet
 
 #: Hops off its main wheels; the nose wheel comes down at 1.25 s, the main wheels at 1.67 s.
 FIRST = Contact(2.5, 60.0, pitch=0.08, roll=0.01, lift=Lift(fraction=1.0, decay_start=0.6))
 
 SHORT = SimulationOptions(time_limit=1.0, stop_when_settled=False)
-
-
-@pytest.fixture(scope="module")
-def aircraft() -> LandingAircraft:
-    return business_jet()
 
 
 @pytest.fixture(scope="module")

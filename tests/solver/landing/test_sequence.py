@@ -12,15 +12,9 @@ from solver.landing.excerpt import contact_during
 from solver.landing.history import LandingHistory
 from solver.landing.sequence import Passage, passage, simulate_contacts, until_next
 from solver.landing.simulate import SimulationOptions, simulate_landing
-from tests.solver.landing.business_jet import business_jet
 
 #: Hops off the main wheels with the nose up and comes down on them again after 1.5 s.
 FIRST = Contact(2.0, 60.0, pitch=0.1, pitch_rate=0.15, lift=Lift(fraction=1.0, decay_start=0.6))
-
-
-@pytest.fixture(scope="module")
-def aircraft() -> LandingAircraft:
-    return business_jet()
 
 
 @pytest.fixture(scope="module")
